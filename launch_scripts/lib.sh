@@ -53,9 +53,9 @@ lock_build() {
 
 # configure_build: enters the tree and configures the release preset; prints only errors.
 configure_build() {
-  local said
+  local output
   cd "$TERN_ROOT" || return 1
-  said=$(cmake --preset release 2>&1) || { printf '%s\n' "$said" >&2 && return 1; }
+  output=$(cmake --preset release 2>&1) || { printf '%s\n' "$output" >&2 && return 1; }
 }
 
 # time_left DONE ALL SECONDS: prints the remaining time of a build that took SECONDS for DONE of its ALL steps.
@@ -95,9 +95,9 @@ build_programs() (
   steps=$(wc -l <<<"$left")
   # ninja -n counts every program as one to link again: it cannot know that the version, which is always checked, is unchanged.
   long=$(grep -cv 'Linking ' <<<"$left" || true)
-  ((long > MANY_STEPS)) || said=$("${build[@]}" 2>&1) || failed=yes
+  ((long > MANY_STEPS)) || output=$("${build[@]}" 2>&1) || failed=yes
   [[ ! -t 2 ]] || printf '\r\033[K' >&2
-  [[ -z $failed ]] || { printf '%s\n' "$said" >&2 && exit 1; }
+  [[ -z $failed ]] || { printf '%s\n' "$output" >&2 && exit 1; }
   ((long > MANY_STEPS)) || exit 0
   set -o pipefail
   say "Building Tern's programs, $steps steps. Later only what has changed."

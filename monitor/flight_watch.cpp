@@ -61,11 +61,11 @@ void FlightWatch::fail(std::string detail) {
 
 std::optional<std::string> FlightWatch::failure(UTime now) const {
   if (!failure_.empty()) return failure_;
-  const UTime heard = processes_.last_heartbeat(kSimulatorProcess, simulator_epoch_us()).value_or(began_);
-  if (now - heard > kSimulatorSilence) {
-    return fmt::format("{} sent no heartbeat for {:.0f} s", kSimulatorProcess, (now - heard).seconds());
+  const UTime last_heartbeat = processes_.last_heartbeat(kSimulatorProcess, simulator_epoch_us()).value_or(began_);
+  if (now - last_heartbeat > kSimulatorSilence) {
+    return fmt::format("{} sent no heartbeat for {:.0f} s", kSimulatorProcess, (now - last_heartbeat).seconds());
   }
-  if (processes_.epoch_us(kSimulatorProcess) != simulator_epoch_us() && now - heard > kSuccessorSilence) {
+  if (processes_.epoch_us(kSimulatorProcess) != simulator_epoch_us() && now - last_heartbeat > kSuccessorSilence) {
     return fmt::format("{} restarted during the flight: its world is lost", kSimulatorProcess);
   }
   const Duration limit = Duration::from_seconds(flight_timeout_s(scenario_)) + kResultSlack;

@@ -126,7 +126,7 @@ std::string message_lines(const FlightSummary& s) {
 std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
   const bool is_blocked = s.outcome == FlightOutcome::Timeout && s.reasons[idx(PlanReason::GoalBlocked)] > 0;
-  text += is_blocked ? "; the goal was blocked: tern-planner.log says by what\n" : "\n";
+  text += is_blocked ? "; the goal was blocked: tern-planner.log names the obstacle\n" : "\n";
   text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));
   if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);

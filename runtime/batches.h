@@ -58,14 +58,14 @@ class BatchCollector {
     std::pair<UTime, std::int64_t> newest{UTime{}, 0};  ///< time and sequence number of the newest batch
     std::vector<std::optional<T>> parts;
     int missing = 0;
-    std::int64_t heard = 0;
+    std::int64_t last_used = 0;
   };
 
   Unfinished& of(std::int64_t epoch_us) {
     Unfinished& set = senders_[epoch_us];
-    set.heard = ++count_;
+    set.last_used = ++count_;
     if (senders_.size() > kMaxSenders) {
-      const auto longest_ago = [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; };
+      const auto longest_ago = [](const auto& a, const auto& b) { return a.second.last_used < b.second.last_used; };
       senders_.erase(std::min_element(senders_.begin(), senders_.end(), longest_ago));
     }
     return set;

@@ -26,10 +26,10 @@ class ClockEchoes {
   bool receive(const Header& header, UTime received) {
     const std::int64_t epoch_us = header.name.sender_epoch_us;
     forget_before(received - kOldest);
-    const bool is_new = heard_.insert_or_assign(epoch_us, ClockEcho{epoch_us, header.utime, received}).second;
-    if (heard_.size() > static_cast<std::size_t>(kMaxClockEchoes)) {
+    const bool is_new = echoes_.insert_or_assign(epoch_us, ClockEcho{epoch_us, header.utime, received}).second;
+    if (echoes_.size() > static_cast<std::size_t>(kMaxClockEchoes)) {
       const auto earlier = [](const auto& a, const auto& b) { return a.second.received < b.second.received; };
-      heard_.erase(std::min_element(heard_.begin(), heard_.end(), earlier));
+      echoes_.erase(std::min_element(echoes_.begin(), echoes_.end(), earlier));
     }
     return is_new;
   }
@@ -38,16 +38,16 @@ class ClockEchoes {
   [[nodiscard]] std::vector<ClockEcho> echoes(UTime now) {
     forget_before(now - kOldest);
     std::vector<ClockEcho> result;
-    for (const auto& [epoch_us, echo] : heard_) result.push_back(echo);
+    for (const auto& [epoch_us, echo] : echoes_) result.push_back(echo);
     return result;
   }
 
  private:
   void forget_before(UTime t) {
-    std::erase_if(heard_, [t](const auto& entry) { return entry.second.received < t; });
+    std::erase_if(echoes_, [t](const auto& entry) { return entry.second.received < t; });
   }
 
-  std::map<std::int64_t, ClockEcho> heard_;
+  std::map<std::int64_t, ClockEcho> echoes_;
 };
 
 /// The result of one exchange.

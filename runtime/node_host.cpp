@@ -52,7 +52,7 @@ void NodeHost::on_heartbeat(const Heartbeat& heartbeat) {
   if (heartbeat.process == kRecorder && heartbeat.state == ProcessState::Waiting) {
     next_configuration_ = std::min(next_configuration_, bus_.clock().now());
   }
-  if (header.name.sender_epoch_us == bus_.epoch_us() || !heard_.receive(header, bus_.received())) return;
+  if (header.name.sender_epoch_us == bus_.epoch_us() || !echoes_.receive(header, bus_.received())) return;
   next_heartbeat_ = std::min(next_heartbeat_, last_heartbeat_ + kHeartbeatSpacing);
 }
 
@@ -109,7 +109,7 @@ void NodeHost::publish_heartbeat() {
   message.waiting_for = health.waiting_for;
   for (const std::string& trouble : {report_drift(), bus_.sender_troubles()}) append(message.waiting_for, trouble);
   message.channels = bus_.counters();
-  message.echoes = heard_.echoes(bus_.clock().now());
+  message.echoes = echoes_.echoes(bus_.clock().now());
   bus_.publish(channels::kHeartbeat, message);
 }
 

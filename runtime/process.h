@@ -104,7 +104,7 @@ class NodeHost {
   Bus& bus_;
   Node& node_;
   std::string process_, yaml_;
-  ClockEchoes heard_;
+  ClockEchoes echoes_;
   UTime last_heartbeat_{}, next_heartbeat_{}, next_configuration_{};
   std::int64_t stepped_deliveries_ = 0;
   bool reported_finished_ = false;

@@ -14,7 +14,7 @@ namespace tern {
 namespace {
 
 /// A process that is silent for longer has ended: four heartbeats in a row are missing.
-constexpr Duration kHeardLately{2'500'000};
+constexpr Duration kHeartbeatAge{2'500'000};
 
 LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
   if (std::filesystem::is_directory(path)) path = (std::filesystem::path(path) / "flight.lcm").string();
@@ -74,8 +74,8 @@ void LoggerNode::flush() {
 
 std::string LoggerNode::missing_configurations() const {
   std::string text;
-  for (const auto& [process, heard] : starts_) {
-    if (bus_.clock().now() - heard.at > kHeardLately || configurations_.contains(heard.epoch_us)) continue;
+  for (const auto& [process, start] : starts_) {
+    if (bus_.clock().now() - start.at > kHeartbeatAge || configurations_.contains(start.epoch_us)) continue;
     text += (text.empty() ? "CONFIGURATION of " : ", ") + process;
   }
   return text;
