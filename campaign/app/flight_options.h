@@ -1,4 +1,4 @@
-// The options that select what is flown, the same for a campaign and for a single flight.
+// The options that select what is flown: they are the same for a campaign and for a single flight.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct FlightOptions {
   std::vector<std::string> settings;  ///< key=value
   std::string charge = "cpu";
   std::string audit, coverage;  ///< programs
-  bool oracle = false;          ///< declare the motion of every obstacle, whatever the scenario says
+  bool oracle = false;          ///< declare the motion of every obstacle; overrides the scenario
 };
 
 /// Adds --world, --count and --set, which define the world.

@@ -34,7 +34,7 @@ struct CampaignSummary {
   std::int64_t stops = 0, flights_with_stops = 0, limit_violations = 0;
   std::int64_t contacts_moving = 0, contacts_at_rest = 0;
   std::optional<Interval> contact_moving_ci95;  ///< Wilson interval of flights with a contact while moving
-  Distribution obstacles;                       ///< met during a flight, by the referee
+  Distribution obstacles;                       ///< how many exist at some time of a flight
   std::int64_t obstacles_left_out = 0;
   std::int64_t requests = 0, deadlines_missed = 0, answers_refused = 0;
   std::map<std::string, std::int64_t> plans;              ///< answers by outcome
@@ -54,7 +54,7 @@ CampaignSummary summarize(const Flights& flights);
 /// @param command  the command line to record
 std::string to_json(const CampaignSummary& summary, const std::string& command);
 
-/// Returns the same for people, in about 15 lines.
+/// Returns the summary as text for people, in about 15 lines.
 std::string to_text(const CampaignSummary& summary);
 
 }  // namespace tern

@@ -13,7 +13,7 @@ std::optional<std::string> failure_of(const std::function<void()>& job) {
   } catch (const std::exception& e) {
     return e.what();
   } catch (...) {
-    return "something that is no std::exception";
+    return "an exception that is not a std::exception";
   }
   return std::nullopt;
 }

@@ -21,7 +21,7 @@ std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection class
   std::vector<std::pair<std::string, VoxelLabel>> result;
   const auto read = [&](const std::string& name, const std::string& fallback) {
     if (class_numbers(name).empty())
-      throw classes.error(name, "is no class or group of classes (see semantic_mapper/README.md)");
+      throw classes.error(name, "is not a class or group of classes (see semantic_mapper/README.md)");
     result.emplace_back(name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "label of such points")));
   };
   if (!is_given) {
@@ -43,7 +43,7 @@ std::vector<std::string> read_class_list(ConfigSection& section, const char* key
       continue;
     }
     if (word.empty()) continue;
-    if (class_numbers(word).empty()) throw section.error(key, word + " is no class or group of classes");
+    if (class_numbers(word).empty()) throw section.error(key, word + " is not a class or group of classes");
     names.push_back(std::exchange(word, {}));
   }
   return names;

@@ -79,7 +79,7 @@ class HeaderLines {
     if (words.size() != 3) return "the element line is not \"element <name> <count>\"";
     const auto [end, error] = std::from_chars(words[2].data(), words[2].data() + words[2].size(), count);
     if (error != std::errc() || end != words[2].data() + words[2].size()) {
-      return fmt::format("\"{}\" is no number of elements", words[2].substr(0, 40));
+      return fmt::format("\"{}\" is not a number of elements", words[2].substr(0, 40));
     }
     in_vertices_ = words[1] == "vertex";
     if (!in_vertices_) return has_vertices_ ? "" : fmt::format("element {} before vertex", words[1].substr(0, 40));

@@ -28,10 +28,11 @@ struct Contact {
 
 /// Computes the clearance along a flight, step by step.
 ///
-/// Between corners, the relative position over [t0, t1] deviates from its chord by at most a (t1 − t0)²/8. Here a is
-/// the sum of both bounds of acceleration. Along the chord the signed distance is convex, so golden section finds its
-/// minimum to a known error. The chord's minimum minus error and deviation is a proven lower bound. Intervals are
-/// halved until lower and upper bound agree to kClearanceTolerance, and further while they differ in sign.
+/// A corner is a time at which an obstacle's velocity jumps (WorldObstacle::next_corner). Between corners, the relative
+/// position over [t0, t1] deviates from its chord by at most a (t1 − t0)²/8. Here a is the sum of both bounds of
+/// acceleration. Along the chord the signed distance is convex, so golden section finds its minimum to a known error.
+/// The chord's minimum minus error and deviation is a proven lower bound. Intervals are halved until lower and upper
+/// bound agree to kClearanceTolerance, and further while they differ in sign.
 ///
 /// Prefilter: an obstacle seen at distance d cannot be nearer than d − (metres flown since) − (its speed bound)·(time
 /// since). So most steps look at few obstacles: 300 obstacles at 100 Hz cost microseconds a step.
@@ -41,7 +42,7 @@ class ClearanceWatch {
   ClearanceWatch(const World& world, const Body& body);
 
   /// Takes the flight over [t0, t1], world time, s. @pre t0 is the last t1 (0 at first), and `piece` holds throughout
-  /// @return the first contact in it, or nullopt; of equal times that of the least id
+  /// @return the first contact in it, or nullopt. Of contacts at the same time, the one with the least id is returned
   std::optional<Contact> advance(const FlownPiece& piece, double t0_s, double t1_s);
 
   /// Least clearance so far, m; ∞ if no obstacle was present.

@@ -17,7 +17,7 @@ inline constexpr Duration kLookAroundTime{1'500'000};
 /// Position and velocity of an obstacle's centre, W.
 struct ObstacleState {
   Vec3 p = Vec3::Zero();  ///< m
-  Vec3 v = Vec3::Zero();  ///< m/s; at a corner that after it
+  Vec3 v = Vec3::Zero();  ///< m/s; at a corner, the velocity after it
 };
 
 /// Bounds per axis at all times except corners, where the velocity jumps (WorldObstacle::next_corner).

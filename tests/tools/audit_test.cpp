@@ -234,7 +234,7 @@ TEST_F(AuditedFlight, WithAnAnswerTakenAwaySaysThatItWasLostAndBreaksNothing) {
   const std::int64_t request = plan_with_planes().request_id;
   const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) { return plan.request_id != request; });
   EXPECT_THAT(broken(audit), ElementsAre());
-  EXPECT_THAT(audit.missing, ElementsAre("PLAN: 1 messages lost, by their numbers"));
+  EXPECT_THAT(audit.missing, ElementsAre("PLAN: 1 messages lost, as the sequence numbers show"));
   EXPECT_EQ(audit.check("answers").unchecked.size(), 1U);
   EXPECT_EQ(audit.check("commitment").unchecked.size(), 1U);
 }

@@ -26,8 +26,9 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
   std::vector<std::string> missing;
   const LogContents& log = record.contents;
   if (log.damage.places > 0) {
-    missing.push_back(fmt::format("the log is damaged in {} places ({} bytes; {} events are missing, by their numbers)",
-                                  log.damage.places, log.damage.bytes, log.damage.missing));
+    missing.push_back(
+        fmt::format("the log is damaged in {} places ({} bytes; {} messages are missing, as the event numbers show)",
+                    log.damage.places, log.damage.bytes, log.damage.missing));
   }
   if (log.damage.truncated) missing.push_back("the log ends in the middle of an event");
   std::set<MessageName> names;
@@ -48,7 +49,8 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
     return latched;
   };
   for (const auto& [name, channel] : log.channels) {
-    if (channel.lost > 0) missing.push_back(fmt::format("{}: {} messages lost, by their numbers", name, channel.lost));
+    if (channel.lost > 0)
+      missing.push_back(fmt::format("{}: {} messages lost, as the sequence numbers show", name, channel.lost));
     if (channel.before_first > 0 && !is_latched(name)) {
       missing.push_back(fmt::format("{}: the log lacks the first {} messages", name, channel.before_first));
     }

@@ -244,7 +244,7 @@ Check check_commitment(const FlightRecord& record) {
       } else if (states_unread) {
         ++check.unchecked["committed trajectories that may start from a UAV_STATE that was lost or refused"];
       } else {
-        check.fail({own.list[k].spline.start, "flies a trajectory that is no plan of the log"});
+        check.fail({own.list[k].spline.start, "flies a trajectory that is not in a plan of the log"});
       }
     }
   }

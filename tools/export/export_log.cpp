@@ -124,7 +124,7 @@ Result<std::string> export_log(const ExportOptions& options) {
   }
   const auto contents = log.read(options.log);
   if (!contents) return tl::make_unexpected(contents.error());
-  if (messages == 0) return fail(options.log + ": has no message of Tern");
+  if (messages == 0) return fail(options.log + ": holds no message of Tern");
   if (const auto written = csv.finish(); !written) return tl::make_unexpected(written.error());
   if (mcap) {
     if (const auto written = mcap->finish(); !written) return tl::make_unexpected(written.error());

@@ -34,10 +34,10 @@ std::string what_the_log_lacks(const Replay& replay) {
   std::string text;
   const LogDamage& damage = replay.inputs.log.damage;
   if (damage.places > 0) {
-    text += fmt::format("  damaged in {} place(s), {} bytes are no messages{}\n", damage.places, damage.bytes,
+    text += fmt::format("  damaged in {} place(s), where {} bytes were skipped{}\n", damage.places, damage.bytes,
                         damage.truncated ? "; its end is cut off" : "");
   }
-  if (damage.missing > 0) text += fmt::format("  {} messages are missing, by their numbers\n", damage.missing);
+  if (damage.missing > 0) text += fmt::format("  {} messages are missing, as the event numbers show\n", damage.missing);
   std::map<std::string, LogChannel> channels = replay.inputs.log.channels;
   for (const auto& [name, channel] : replay.predictions.channels) {
     if (channel.read) channels[name] = channel;
@@ -47,7 +47,7 @@ std::string what_the_log_lacks(const Replay& replay) {
     if (channel.foreign && name != kLcmSelfTest && name != kExtractMark)
       foreign += fmt::format("{}{} ({})", foreign.empty() ? "" : ", ", name, channel.messages);
     if (channel.lost > 0 && !replay.is_extract())
-      text += fmt::format("  {}: {} messages were lost before the logger\n", name, channel.lost);
+      text += fmt::format("  {}: {} messages were sent but did not reach the logger\n", name, channel.lost);
     for (int r = 0; r < kRejections; ++r) {
       if (channel.refused[r] > 0) text += fmt::format("  {}: {} messages {}\n", name, channel.refused[r], kRefusals[r]);
     }
