@@ -34,8 +34,8 @@ std::optional<Duration> sender_silence(std::string_view channel);
 /// | message of another, active one silent for longer      | that sender becomes the active one      |
 ///
 /// So a restarted process is accepted once the old one has been silent for `silence`. A second process started by
-/// mistake has no effect, while it runs and when it ends (docs/decisions/who-is-heard.md). Sequence numbers are judged
-/// separately for each sender (SequenceWindow).
+/// mistake has no effect, while it runs and when it ends (docs/decisions/one-sender-per-channel.md). Sequence numbers
+/// are judged separately for each sender (SequenceWindow).
 class SenderWatch {
  public:
   /// @param own_epoch_us  epoch of the listener, whose own messages come back to it

@@ -43,7 +43,7 @@ AFTER_CHANNELS = """
   processes of one vehicle get the same suffix.
 * *Latched*: the newest message is repeated for processes that start late.
 * *Silence*: a sender owns the channel until it is silent for this long; then another one may take over
-  ([why](../decisions/who-is-heard.md)). A dash means that several senders may send at the same time.
+  ([why](../decisions/one-sender-per-channel.md)). A dash means that several senders may send at the same time.
 * *Senders and receivers* are the processes of a simulated flight and the autopilot bridge. On an aircraft, sensors
   send OBSTACLE_OBSERVATIONS and a mission may send GOAL. The logger records all channels. Tools read the log.
 

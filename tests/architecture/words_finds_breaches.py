@@ -50,7 +50,7 @@ for text in [
     "Run `what --is` first.",
     "```\nWho rests waits.\n```",
     "    Who rests waits.",
-    "| [who-is-heard.md](who-is-heard.md) | one sender per channel |",
+    "| [one-sender-per-channel.md](one-sender-per-channel.md) | one sender per channel |",
     "*All arrive (0.1.0+5431d03a).*",
     "[" + "x" * 100 + "](https://example.org/" + "x" * 100 + ")",
 ]:
