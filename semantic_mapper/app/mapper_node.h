@@ -12,7 +12,7 @@
 
 namespace tern {
 
-/// A rotation of all chunks begins every second, or when the last rotation ends.
+/// A rotation of all chunks begins every second, or when the last rotation ends, whichever is later.
 inline constexpr Duration kMapPeriod{1'000'000};
 /// The largest rate of SEMANTIC_MAP, bytes/s.
 inline constexpr std::int64_t kMapBytesPerSecond = 1'000'000;
