@@ -44,9 +44,9 @@ class PersistentError {
 /// The width per axis is kMargin times a split-conformal quantile, plus three standard deviations of the estimate. The
 /// quantile is that of level 1 − kMissedShare, over the largest error of each of the last kMaxSeconds seconds. Seconds
 /// are used because errors of neighbouring instants are dependent, while those of whole seconds are nearly
-/// exchangeable. Seconds missing to kPriorSeconds count with kPriorError once an error has reached kMinError, and with
-/// 0 until then. The width is rounded up to kTubeStep, so that it changes seldom. It lies between the floor and
-/// kMaxTube.
+/// exchangeable. If fewer than kPriorSeconds seconds are known, the missing ones count as error 0. For a moving vehicle
+/// at share() 1 they count as kPriorError once an error has reached kMinError. The width is rounded up to kTubeStep, so
+/// that it changes seldom. It lies between the floor and kMaxTube.
 ///
 /// | event                          | effect                                                                       |
 /// |--------------------------------|------------------------------------------------------------------------------|

@@ -17,15 +17,18 @@ namespace tern {
 struct LogDamage {
   std::int64_t places = 0;   ///< damaged places: runs of bytes outside events
   std::int64_t bytes = 0;    ///< bytes at these places
-  std::int64_t missing = 0;  ///< events missing by their numbers; numbers that start again count as no gap
+  std::int64_t missing = 0;  ///< events missing in the sequence of event numbers; a restart of the numbers is no gap
   bool truncated = false;    ///< the file ends within an event
 };
 
 /// Reads the events of one file in their order.
 ///
-/// An event is complete if the next event, or the end of the file, follows it. Otherwise its length is considered
-/// wrong if another event begins within it. After damage, reading continues at the next event that looks complete. The
-/// format has no checksum; damage within the data of a message is left to the message's decoder.
+/// An event counts as complete if all its bytes are in the file, and one of these holds:
+/// - the next event, or the end of the file, follows it directly;
+/// - no other event seems to begin within it.
+///
+/// The remaining events have a wrong length and count as damage. After damage, reading continues at the next complete
+/// event. The format has no checksum; damage within the data of a message is left to the message's decoder.
 class LogReader {
  public:
   /// Opens a file. @return an Error that names path and reason if it cannot be opened

@@ -34,11 +34,12 @@ class Supervisor {
   /// Keeps all processes running until one ends that is not restarted, or a signal arrives. A restart is reported on
   /// the process's standard error.
   SupervisorEvent wait();
-  /// Ends a process before the others, if it runs. It may take 32 s of its clock to land.
-  /// @param pace  of that clock
+  /// Ends a process before the others, if it runs: SIGTERM, then SIGKILL after 32 s of flight time. Meanwhile
+  /// tern-mavlink lands the vehicle.
+  /// @param pace  seconds of flight per second of the system's clock
   void end_first(const std::string& name, double pace);
   /// Ends all processes: SIGTERM to all except `last`, then SIGKILL to those left after 1 s. Then the same for `last`,
-  /// which records the last messages, with 5 s. Signals that arrive meanwhile stay pending.
+  /// which records the last messages and gets 5 s. Signals that arrive meanwhile stay pending.
   void stop(const std::string& last);
 
  private:

@@ -17,12 +17,12 @@ struct MeanDistanceOptions {
 };
 
 /// The field f(p) = mean ‖p − v‖ over voxel centres v. It is convex and 1-Lipschitz, so trilinear interpolation is at
-/// or above f. error() bounds the error by a sum of two:
+/// or above f. error() is the sum of two bounds:
 ///
-///  - At the nodes: the error of the clusters (either sign), and 1e-6 of the largest value for storage as floats.
-///  - Of the interpolation: for one voxel at distance δ from p at most min(√3/2·h, 3h²/(8(δ − √3h))), with the
-///    spacing h (1-Lipschitz; |f''| ≤ 1/δ per axis). This is averaged over the worst arrangement of n voxels on
-///    their lattice: a ball about p.
+///  - The error at the nodes: that of the clusters (either sign), and 1e-6 of the largest value for storage as floats.
+///  - The error of the interpolation with spacing h. For one voxel at distance δ from p it is at most
+///    min(√3/2·h, 3h²/(8(δ − √3h))), because f is 1-Lipschitz and |f''| ≤ 1/δ per axis. The bound averages this over
+///    the worst arrangement of n voxels on their lattice: a ball about p.
 ///
 /// With h = 0.5 m the bound is a few centimetres for a few hundred cubic metres, and 0.44 m for a single voxel.
 class MeanDistanceField {

@@ -73,7 +73,7 @@ struct FlightRecord {
   std::vector<Region> regions;                      ///< of the scenario; filled by load_flight()
   std::map<std::string, std::string> class_labels;  ///< class → "attractive", "repulsive", …
 
-  /// Returns how many messages of a channel were lost (by their sequence numbers) or refused.
+  /// Returns how many messages of a channel were lost (as the sequence numbers show) or refused.
   [[nodiscard]] std::int64_t unread(const std::string& channel) const;
   /// Returns the request with this name. @return nullptr if it is not in the log
   [[nodiscard]] const HorizonRequest* request(const MessageName& name) const;
