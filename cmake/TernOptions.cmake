@@ -22,13 +22,17 @@ if(TERN_WARNINGS_AS_ERRORS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_
   list(APPEND TERN_WARNINGS -Werror)
 endif()
 
-# tern_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): a static library with headers found from the project's root.
+# tern_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...] [NOT_PRECOMPILED]): a static library with headers found from the
+# project's root. NOT_PRECOMPILED: its flags are not those of the precompiled headers (TernHeaders.cmake).
 function(tern_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "NOT_PRECOMPILED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/tern>)
   target_compile_options(${name} PRIVATE ${TERN_WARNINGS})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  if(NOT ARG_NOT_PRECOMPILED)
+    tern_precompiled(${name})
+  endif()
 endfunction()
 
 # tern_executable(NAME SOURCES ... LIBS ...)
@@ -37,5 +41,6 @@ function(tern_executable name)
   add_executable(${name} ${ARG_SOURCES})
   target_compile_options(${name} PRIVATE ${TERN_WARNINGS})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS})
+  tern_precompiled(${name})
   set_property(GLOBAL APPEND PROPERTY TERN_EXECUTABLES ${name})
 endfunction()
