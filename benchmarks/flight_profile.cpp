@@ -2,7 +2,6 @@
 // share of each stage, and the most expensive requests. Thread CPU time.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,6 +13,7 @@
 #include "benchmarks/flight_recording.h"
 #include "core/world/names.h"
 #include "planner/plan_workspace.h"
+#include "runtime/command_line.h"
 #include "runtime/stopwatch.h"
 
 namespace tern {
@@ -109,14 +109,14 @@ void report(const std::vector<Cost>& costs, int worst) {
 }  // namespace tern
 
 int main(int argc, char** argv) {
-  CLI::App app{"Replans the requests of virtual flights and prints their cost, ms of thread CPU time."};
+  tern::CommandLine app{"Replans the requests of virtual flights and prints their cost, ms of thread CPU time."};
   tern::FlightSelection flights;
   int repeats = 3;
   int worst = 10;
   flights.add_options(app);
   app.add_option("--repeats", repeats, "Measurements per request; the least counts");
   app.add_option("--worst", worst, "How many of the most expensive requests are listed");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code = app.parse(argc, argv, 2)) return *code;
   std::vector<tern::Cost> costs;
   tern::PlanWorkspace workspace;
   flights.each([&](std::int64_t seed, const tern::FlightRecording& flight) {

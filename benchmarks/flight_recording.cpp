@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "campaign/virtual_system.h"
@@ -10,6 +9,7 @@
 #include "messages/channels.h"
 #include "planner/app/config_reader.h"
 #include "planner/app/world_intake.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 #include "runtime/stopwatch.h"
@@ -42,7 +42,7 @@ FlightRecording record_flight(const std::string& scenario_file, const std::vecto
   return recording;
 }
 
-void FlightSelection::add_options(CLI::App& app) {
+void FlightSelection::add_options(CommandLine& app) {
   app.add_option("--config", scenario, "Scenario file")->required();
   app.add_option("--set", overrides, "Override key=value (repeatable)");
   app.add_option("--first", first, "First seed");

@@ -9,10 +9,7 @@
 #include "core/world/flight_result.h"
 #include "core/world/scenario.h"
 #include "planner/planner.h"
-
-namespace CLI {
-class App;
-}
+#include "runtime/command_line.h"
 
 namespace tern {
 
@@ -40,7 +37,7 @@ struct FlightSelection {
   std::vector<std::string> overrides;  ///< key=value
   std::int64_t first = 1, last = 1;    ///< seeds, both included
 
-  void add_options(CLI::App& app);
+  void add_options(CommandLine& app);
   void each(const std::function<void(std::int64_t seed, const FlightRecording& flight)>& use) const;
 };
 

@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,6 +17,7 @@
 #include "messages/batching.h"
 #include "planner/plan_workspace.h"
 #include "predictor/models/declared.h"
+#include "runtime/command_line.h"
 #include "runtime/stopwatch.h"
 
 namespace tern {
@@ -228,14 +228,14 @@ void intervals(const std::string& scenario) {
 }  // namespace tern
 
 int main(int argc, char** argv) {
-  CLI::App app{"How the planner's cost grows, as CSV: table, size, quantity, value."};
+  tern::CommandLine app{"How the planner's cost grows, as CSV: table, size, quantity, value."};
   std::string scenario;
   std::int64_t most_voxels = 100'000'000;
   std::int64_t most_obstacles = 100'000;
   app.add_option("--config", scenario, "Scenario whose flight is repeated with J = 4 ... 12")->required();
   app.add_option("--most-voxels", most_voxels, "Up to this many voxels");
   app.add_option("--most-obstacles", most_obstacles, "Up to this many obstacles in the world");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code = app.parse(argc, argv, 2)) return *code;
   fmt::print("table,size,quantity,value\n");
   tern::voxels(most_voxels);  ///< first, since a child's peak starts at this process's memory
   tern::obstacles_in_the_world(most_obstacles);

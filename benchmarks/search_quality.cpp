@@ -2,7 +2,6 @@
 // and no other limit.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "benchmarks/flight_recording.h"
 #include "planner/plan_workspace.h"
 #include "planner/search/semantic_a_star.h"
+#include "runtime/command_line.h"
 #include "runtime/stopwatch.h"
 
 namespace tern {
@@ -114,12 +114,12 @@ void report(const std::vector<Judged>& all) {
 }  // namespace tern
 
 int main(int argc, char** argv) {
-  CLI::App app{"Compares the searches of virtual flights with searches of five seconds. Thread CPU time."};
+  tern::CommandLine app{"Compares the searches of virtual flights with searches of five seconds. Thread CPU time."};
   tern::FlightSelection flights;
   std::size_t every = 4;
   flights.add_options(app);
-  app.add_option("--every", every, "Judge every n-th request")->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
+  app.add_option("--every", every, "Judge every n-th request")->positive();
+  if (const auto code = app.parse(argc, argv, 2)) return *code;
   std::vector<tern::Judged> all;
   flights.each([&](std::int64_t, const tern::FlightRecording& flight) { tern::judge_flight(flight, every, all); });
   if (all.empty()) return 1;

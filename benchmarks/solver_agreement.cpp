@@ -2,13 +2,13 @@
 // Ipopt's by a ten-thousandth.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "benchmarks/recorded_problems.h"
 #include "core/base/percentiles.h"
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/ipopt_solver.h"
+#include "runtime/command_line.h"
 #include "runtime/stopwatch.h"
 
 namespace tern {
@@ -76,11 +76,11 @@ int compare(int count, std::uint64_t seed) {
 }  // namespace tern
 
 int main(int argc, char** argv) {
-  CLI::App app("Compares the solvers of Eq. 4 with fixed planes on problems recorded from flights.");
+  tern::CommandLine app("Compares the solvers of Eq. 4 with fixed planes on problems recorded from flights.");
   int count = 10'000;
   std::uint64_t seed = 1;
   app.add_option("--count", count, "how many problems")->capture_default_str();
   app.add_option("--seed", seed, "the first world's seed")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  if (const auto code = app.parse(argc, argv, 2)) return *code;
   return tern::compare(count, seed);
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -17,6 +16,7 @@
 #include "flight_log/log_reader.h"
 #include "flight_log/log_writer.h"
 #include "runtime/authentication.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/keys.h"
 #include "runtime/tool.h"
@@ -97,29 +97,30 @@ void sift(const std::string& master_path, const std::string& log, const std::str
 }  // namespace tern
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  tern::CommandLine app(
       "Makes the keys with which Tern's processes sign their messages. Exit code: 0 written, 2 bad arguments or files.",
       "tern-key");
-  app.require_subcommand(1);
+  app.require_subcommand(1, 1);
   std::string master, process, out;
-  auto* const make_command = app.add_subcommand("new", "Write a new random master key to FILE (mode 600)");
+  tern::CommandLine make_command = app.add_subcommand("new", "Write a new random master key to FILE (mode 600)");
   make_command->add_option("FILE", out, "New file")->required();
-  auto* const derive_command =
+  tern::CommandLine derive_command =
       app.add_subcommand("derive", "Write the keys of one process, derived from a master key, to FILE (mode 600)");
   derive_command->add_option("MASTER", master, "File of the master key")->required();
   derive_command->add_option("PROCESS", process, "Name of the process, as in tern-planner")->required();
   derive_command->add_option("FILE", out, "New file")->required();
   std::string log, suffix;
-  auto* const sift_command = app.add_subcommand("sift", "Copy the messages of a log whose tags a master key verifies");
+  tern::CommandLine sift_command =
+      app.add_subcommand("sift", "Copy the messages of a log whose tags a master key verifies");
   sift_command->add_option("MASTER", master, "File of the master key")->required();
   sift_command->add_option("LOG", log, "Log file (its further parts are found), or a folder with flight.lcm")
       ->required();
   sift_command->add_option("OUT", out, "New log")->required();
   sift_command->add_option("--channel-suffix", suffix, "End of the vehicle's channel names");
   return tern::run_tool(app, "tern-key", argc, argv, [&] {
-    if (*make_command) tern::write_file(out, tern::to_hex(tern::random_key()) + "\n");
-    if (*sift_command) tern::sift(master, log, out, suffix);
-    if (*derive_command) tern::derive(master, process, out);
+    if (make_command) tern::write_file(out, tern::to_hex(tern::random_key()) + "\n");
+    if (sift_command) tern::sift(master, log, out, suffix);
+    if (derive_command) tern::derive(master, process, out);
     return 0;
   });
 }

@@ -6,12 +6,12 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdlib>
 #include <optional>
 #include <system_error>
 
+#include "runtime/command_line.h"
 #include "runtime/lcm_network.h"
 #include "runtime/scenario_file.h"
 #include "runtime/version.h"
@@ -58,7 +58,7 @@ struct Options {
   bool help_config = false, check_config = false;
 };
 
-void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
+void declare(CommandLine& app, Options& options, const ProcessDescription& description) {
   app.set_version_flag("--version", fmt::format("{} {}", description.name, build_id()));
   if (description.read_section) {
     app.add_flag("--help-config", options.help_config,
@@ -82,7 +82,7 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
                  "Seconds of flight per second of the system clock; the same for all processes of a flight")
       ->envname("TERN_PACE")
       ->type_name("P")
-      ->check(CLI::Range(0.01, 1.0));
+      ->range(0.01, 1.0);
   const auto plain = [](const std::string& suffix) {
     return Bus::is_channel_name(suffix) ? std::string() : suffix + ": only letters, digits, '_' and '-'";
   };
@@ -90,9 +90,9 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
       ->type_name("S")
       ->check(plain);
   app.add_option("--log-level", options.log_level, "Least level of the messages that are logged to stderr")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
+      ->one_of({"trace", "debug", "info", "warning", "error", "off"})
       ->capture_default_str();
-  auto* const key_file =
+  const CommandOption key_file =
       app.add_option("--key-file", options.key_file,
                      "Sign and verify every message with the keys of FILE (mode 600), made by tern-key")
           ->type_name("FILE")
@@ -100,19 +100,9 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
   app.add_option("--key-fd", options.key_fd,
                  "The same from open file descriptor N (no pipe), which is closed after reading")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber)
+      ->non_negative()
       ->excludes(key_file);
   if (description.add_options) description.add_options(app);
-}
-
-/// Parses. @return the exit code if the process ends now (help, version, an error).
-std::optional<int> parse(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-    return std::nullopt;
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : kExitBadConfiguration;
-  }
 }
 
 void start_log(const ProcessDescription& description, const std::string& level) {
@@ -191,9 +181,9 @@ std::int64_t unique_epoch(std::int64_t now_us, std::int64_t process_id) {
 
 int run_process(int argc, char** argv, const ProcessDescription& description, const NodeFactory& make_node) {
   Options options;
-  CLI::App app(description.summary, description.name);
+  CommandLine app(description.summary, description.name);
   declare(app, options, description);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv, kExitBadConfiguration)) return *code;
   if (options.help_config) {
     print_knobs(description);
     return 0;

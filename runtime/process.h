@@ -9,12 +9,9 @@
 #include "core/world/scenario.h"
 #include "runtime/bus.h"
 #include "runtime/clock_exchange.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/node.h"
-
-namespace CLI {
-class App;
-}
 
 namespace tern {
 
@@ -41,10 +38,10 @@ std::uint64_t configuration_hash(const std::string& effective_yaml);
 
 /// The fixed properties of a process, for run_process().
 struct ProcessDescription {
-  std::string name;                                 ///< "tern-planner"
-  std::string section;                              ///< "planner": its section of the scenario file; "" if it has none
-  std::string summary;                              ///< one line for --help
-  std::function<void(CLI::App&)> add_options = {};  ///< adds options to the common ones
+  std::string name;     ///< "tern-planner"
+  std::string section;  ///< "planner": its section of the scenario file; "" if it has none
+  std::string summary;  ///< one line for --help
+  std::function<void(CommandLine&)> add_options = {};  ///< adds options to the common ones
   /// Reads its section, for --help-config and --check-config. Empty if it has none.
   std::function<void(ConfigSection)> read_section = {};
   std::string example = {};  ///< a scenario for --help-config, if some keys depend on others

@@ -4,14 +4,12 @@
 #include <functional>
 #include <string>
 
-namespace CLI {
-class App;
-}
+#include "runtime/command_line.h"
 
 namespace tern {
 
 /// Parses, then runs. A bad command line, and an exception of `run`, are printed on stderr as "NAME: reason".
 /// @return the result of `run`; 0 after --help or --version; kExitBadConfiguration after an error.
-int run_tool(CLI::App& app, const std::string& name, int argc, char** argv, const std::function<int()>& run);
+int run_tool(CommandLine& app, const std::string& name, int argc, char** argv, const std::function<int()>& run);
 
 }  // namespace tern

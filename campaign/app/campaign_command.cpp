@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <sys/signalfd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <csignal>
@@ -17,6 +16,7 @@
 #include "campaign/app/summary_output.h"
 #include "campaign/campaign.h"
 #include "campaign/recorded_flight.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -96,17 +96,15 @@ int fly(const Options& options) {
 }
 
 /// Refuses options before a subcommand, where they would have no effect.
-void refuse_own_options(const CLI::App& app) {
-  const std::string command = app.get_subcommands().front()->get_name();
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->count() == 0) continue;
-    throw CLI::ValidationError(option->get_name(), fmt::format("is not an option of {}, or must follow it", command));
+void refuse_own_options(const CommandLine& app) {
+  for (const std::string& option : app.given()) {
+    CommandLine::refuse(option, fmt::format("is not an option of {}, or must follow it", app.chosen_subcommand()));
   }
 }
 
 }  // namespace
 
-void add_campaign(CLI::App& app, Command& chosen) {
+void add_campaign(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   add_flight_options(app, options->flight);
   app.add_option("--seeds", options->seeds, "First and last seed")->type_name("A:B")->capture_default_str();
@@ -115,7 +113,7 @@ void add_campaign(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   app.add_option("--jobs", options->jobs, "Number of flights at a time (default: one per core)")
       ->type_name("K")
-      ->check(CLI::Range(1, 10'000));
+      ->range(1, 10'000);
   app.add_option("--out", options->out, "A line per flight; flights that it already holds are skipped")
       ->type_name("FLIGHTS.csv");
   app.add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");
@@ -123,11 +121,11 @@ void add_campaign(CLI::App& app, Command& chosen) {
       ->type_name("DIR");
   app.add_option("--cpu-limit", options->cpu_limit_s, "CPU time after which a flight counts as failed, s")
       ->type_name("S")
-      ->check(CLI::Range(1, 1'000'000))
+      ->range(1, 1'000'000)
       ->capture_default_str();
   app.require_subcommand(0, 1);
   app.final_callback([&app, &chosen, options] {
-    if (!app.get_subcommands().empty()) {
+    if (!app.chosen_subcommand().empty()) {
       refuse_own_options(app);
       return;
     }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,6 +8,7 @@
 #include "campaign/app/flight_options.h"
 #include "campaign/experiments/scenario_view.h"
 #include "core/base/files.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -35,12 +35,12 @@ int check(const Options& options) {
 
 }  // namespace
 
-void add_check(CLI::App& app, Command& chosen) {
+void add_check(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  CommandLine command = app.add_subcommand(
       "check",
       "Inspect a scenario without flying it: contents, drawing, path to the goal; exit code 1: there is no path");
-  add_world_options(*command, options->flight);
+  add_world_options(command, options->flight);
   command->add_option("--seed", options->seed, "Seed (default: the scenario's)");
   command->add_option("--out", options->out, "Draw it from above")->type_name("FILE.svg");
   command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });

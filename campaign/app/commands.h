@@ -3,9 +3,7 @@
 
 #include <functional>
 
-namespace CLI {
-class App;
-}
+#include "runtime/command_line.h"
 
 namespace tern {
 
@@ -14,16 +12,16 @@ using Command = std::function<int()>;
 
 /// Each function sets `chosen` if its subcommand is on the command line. add_campaign adds the program itself, which
 /// has no subcommand.
-void add_campaign(CLI::App& app, Command& chosen);
-void add_check(CLI::App& app, Command& chosen);
-void add_fly_one(CLI::App& app, Command& chosen);
-void add_judge_contacts(CLI::App& app, Command& chosen);
-void add_merge(CLI::App& app, Command& chosen);
-void add_schema(CLI::App& app, Command& chosen);
-void add_summarize(CLI::App& app, Command& chosen);
+void add_campaign(CommandLine& app, Command& chosen);
+void add_check(CommandLine& app, Command& chosen);
+void add_fly_one(CommandLine& app, Command& chosen);
+void add_judge_contacts(CommandLine& app, Command& chosen);
+void add_merge(CommandLine& app, Command& chosen);
+void add_schema(CommandLine& app, Command& chosen);
+void add_summarize(CommandLine& app, Command& chosen);
 /// Adds compare, page and columns.
-void add_compare(CLI::App& app, Command& chosen);
+void add_compare(CommandLine& app, Command& chosen);
 /// Adds paper-6.1 and paper-6.2.
-void add_paper(CLI::App& app, Command& chosen);
+void add_paper(CommandLine& app, Command& chosen);
 
 }  // namespace tern

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "campaign/page/campaign_page.h"
 #include "campaign/records/campaign_comparison.h"
 #include "core/base/files.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -62,26 +62,26 @@ int print_columns() {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Command& chosen) {
+void add_compare(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("compare",
-                                         "Compare two campaigns of a scenario over the same seeds, B against A; "
-                                         "exit code 2: some flights are equal, "
-                                         "nothing can be inferred");
+  CommandLine command = app.add_subcommand("compare",
+                                           "Compare two campaigns of a scenario over the same seeds, B against A; "
+                                           "exit code 2: some flights are equal, "
+                                           "nothing can be inferred");
   command->add_option("a", options->a, "One campaign's flights")->required()->type_name("A.csv");
   command->add_option("b", options->b, "The other's")->required()->type_name("B.csv");
   command->add_option("--form", options->form, "A table in this form, or a drawing (default text)")
-      ->check(CLI::IsMember({"text", "markdown", "latex", "svg"}));
+      ->one_of({"text", "markdown", "latex", "svg"});
   command->callback([&chosen, options] { chosen = [options] { return compare_files(*options); }; });
   auto page = std::make_shared<PageOptions>();
-  CLI::App* html = app.add_subcommand(
+  CommandLine html = app.add_subcommand(
       "page", "Write a campaign as one HTML page: distributions, and failed flights with their logs");
   html->add_option("flights", page->flights, "Flights of a campaign")->required()->type_name("FLIGHTS.csv");
   html->add_option("--out", page->out, "The page (default FLIGHTS.csv.html)")->type_name("FILE.html");
   html->add_option("--failures", page->failures, "Folder of the flights that failed (default FLIGHTS.csv.failures)")
       ->type_name("DIR");
   html->callback([&chosen, page] { chosen = [page] { return write_page(*page); }; });
-  CLI::App* columns = app.add_subcommand("columns", "Print the meaning of each column of FLIGHTS.csv");
+  CommandLine columns = app.add_subcommand("columns", "Print the meaning of each column of FLIGHTS.csv");
   columns->callback([&chosen] { chosen = print_columns; });
 }
 

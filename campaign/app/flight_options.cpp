@@ -2,11 +2,11 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -29,26 +29,24 @@ std::string why_not_run(const std::string& program) {
 
 }  // namespace
 
-void add_world_options(CLI::App& app, FlightOptions& options) {
+void add_world_options(CommandLine& app, FlightOptions& options) {
   app.add_option("--world", options.world, "Scenario: a file, or a name in scenarios/")->type_name("NAME|FILE");
-  app.add_option("--count", options.count, "Number of obstacles (world.count)")
-      ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
+  app.add_option("--count", options.count, "Number of obstacles (world.count)")->type_name("N")->non_negative();
   app.add_option("--set", options.settings, "Override a value of the scenario file (repeatable)")
       ->type_name("KEY=VALUE")
       ->take_all();
 }
 
-void add_flight_options(CLI::App& app, FlightOptions& options) {
+void add_flight_options(CommandLine& app, FlightOptions& options) {
   add_world_options(app, options);
   app.add_option("--charge", options.charge, "Virtual time that planning takes: the CPU time of its thread, or 15 ms")
-      ->check(CLI::IsMember({"cpu", "counts"}))
+      ->one_of({"cpu", "counts"})
       ->capture_default_str();
-  CLI::Option* audit = app.add_option("--audit", options.audit,
-                                      "Run this program on every log (exit code 0: passed, 1: broken) and record its "
-                                      "coverage of predictions")
-                           ->type_name("PROGRAM")
-                           ->check(why_not_run);
+  CommandOption audit = app.add_option("--audit", options.audit,
+                                       "Run this program on every log (exit code 0: passed, 1: broken) and record its "
+                                       "coverage of predictions")
+                            ->type_name("PROGRAM")
+                            ->check(why_not_run);
   app.add_option("--coverage", options.coverage, "The same for the coverage only, without a verdict")
       ->type_name("PROGRAM")
       ->check(why_not_run)

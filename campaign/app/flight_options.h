@@ -5,10 +5,7 @@
 #include <vector>
 
 #include "campaign/flight_inputs.h"
-
-namespace CLI {
-class App;
-}
+#include "runtime/command_line.h"
 
 namespace tern {
 
@@ -23,10 +20,10 @@ struct FlightOptions {
 };
 
 /// Adds --world, --count and --set, which define the world.
-void add_world_options(CLI::App& app, FlightOptions& options);
+void add_world_options(CommandLine& app, FlightOptions& options);
 
 /// Adds the world options, --charge, --audit, --coverage and --oracle.
-void add_flight_options(CLI::App& app, FlightOptions& options);
+void add_flight_options(CommandLine& app, FlightOptions& options);
 
 /// @throws ConfigError if the world is unknown, or if a setting sets the seed or has no effect
 FlightInputs inputs_of(const FlightOptions& options);

@@ -2,7 +2,6 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "campaign/app/plan_tracer.h"
 #include "campaign/campaign.h"
 #include "campaign/recorded_flight.h"
+#include "runtime/command_line.h"
 
 namespace tern {
 namespace {
@@ -42,11 +42,11 @@ int fly_one(const Options& options) try {
 
 }  // namespace
 
-void add_fly_one(CLI::App& app, Command& chosen) {
+void add_fly_one(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
+  CommandLine command =
       app.add_subcommand("fly-one", "Fly one seed in this process and record it; prints two lines of CSV");
-  add_flight_options(*command, options->flight);
+  add_flight_options(command, options->flight);
   command->add_option("--seed", options->seed, "Seed")->capture_default_str();
   command->add_option("--folder", options->folder, "Folder for scenario.yaml, flight.lcm and summary.json")
       ->type_name("DIR")

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "campaign/experiments/avoidable.h"
 #include "campaign/records/flight_table.h"
 #include "campaign/statistics/wilson.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 
@@ -55,16 +55,16 @@ int judge(const Options& options) {
 
 }  // namespace
 
-void add_judge_contacts(CLI::App& app, Command& chosen) {
+void add_judge_contacts(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  CommandLine command = app.add_subcommand(
       "judge-contacts", "Find the contacts of a stationary vehicle that random moves would have avoided");
-  add_world_options(*command, options->flight);
+  add_world_options(command, options->flight);
   command->add_option("flights", options->flights, "Flights of a campaign in this world")
       ->required()
       ->type_name("FLIGHTS.csv");
   command->add_option("--moves", options->moves, "Number of random moves per contact")
-      ->check(CLI::Range(1, 100'000'000))
+      ->range(1, 100'000'000)
       ->capture_default_str();
   command->callback([&chosen, options] { chosen = [options] { return judge(*options); }; });
 }

@@ -1,17 +1,18 @@
 // tern-campaign: many seeded flights on virtual time, each in a process of its own.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 
 #include "campaign/app/commands.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/process.h"
 #include "runtime/version.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Flies a scenario with many seeds on virtual time. Writes a row of CSV per flight, and a summary."};
+  tern::CommandLine app{
+      "Flies a scenario with many seeds on virtual time. Writes a row of CSV per flight, and a summary."};
   app.set_version_flag("--version", std::string("tern-campaign ") + tern::build_id());
   tern::Command chosen;
   tern::add_campaign(app, chosen);
@@ -24,10 +25,8 @@ int main(int argc, char** argv) {
   tern::add_compare(app, chosen);
   tern::add_paper(app, chosen);
   try {
-    app.parse(argc, argv);
+    if (const auto code = app.parse(argc, argv, tern::kExitBadConfiguration)) return *code;
     return chosen();
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : tern::kExitBadConfiguration;
   } catch (const tern::ConfigError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return tern::kExitBadConfiguration;

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -6,6 +5,7 @@
 #include "campaign/app/commands.h"
 #include "campaign/app/summary_output.h"
 #include "campaign/records/flight_table.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -26,9 +26,9 @@ int merge(const Options& options) {
 
 }  // namespace
 
-void add_merge(CLI::App& app, Command& chosen) {
+void add_merge(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("merge", "Merge the flights of several shards into one file");
+  CommandLine command = app.add_subcommand("merge", "Merge the flights of several shards into one file");
   command->add_option("parts", options->parts, "Files of flights")->required()->type_name("PART.csv ...");
   command->add_option("--out", options->out, "The merged file, by seed")->required()->type_name("FLIGHTS.csv");
   command->add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "campaign/experiments/search_experiment.h"
 #include "campaign/experiments/semantic_flights.h"
 #include "core/base/files.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -105,23 +105,21 @@ int corridor(const Options& options) {
 
 }  // namespace
 
-void add_paper(CLI::App& app, Command& chosen) {
+void add_paper(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* alone = app.add_subcommand(
+  CommandLine alone = app.add_subcommand(
       "paper-6.1", "Section 6.1 of the paper: the search alone in three cases. Writes CSV, and JSON for the figure");
-  CLI::App* flights = app.add_subcommand(
+  CommandLine flights = app.add_subcommand(
       "paper-6.2",
       "Section 6.2 of the paper: flights with semantics on and off. Writes CSV, Markdown, and JSON for the figures");
-  for (CLI::App* command : {alone, flights}) {
+  for (CommandLine command : {alone, flights}) {
     command->add_option("--out", options->out, "Folder for the files")->type_name("DIR")->capture_default_str();
   }
   alone->add_option("--set", options->settings, "Override a value of the scenario file (repeatable)")
       ->type_name("KEY=VALUE");
   flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each world (default 100; with --sweep 10)")
       ->type_name("N");
-  flights->add_option("--jobs", options->jobs, "Number of flights at a time")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
+  flights->add_option("--jobs", options->jobs, "Number of flights at a time")->range(1, 10'000)->capture_default_str();
   flights->add_flag("--sweep", options->sweep, "Instead vary λ from 0 to 8 with each method");
   alone->callback([&chosen, options] { chosen = [options] { return search(*options); }; });
   flights->callback([&chosen, options] { chosen = [options] { return corridor(*options); }; });

@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "campaign/app/commands.h"
 #include "campaign/recorded_flight.h"
 #include "campaign/scenario_schema.h"
+#include "runtime/command_line.h"
 
 namespace tern {
 
-void add_schema(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("schema", "Print the JSON schema of scenario files");
+void add_schema(CommandLine& app, Command& chosen) {
+  CommandLine command = app.add_subcommand("schema", "Print the JSON schema of scenario files");
   command->callback([&chosen] {
     chosen = [] {
       fmt::print("{}", scenario_schema());

@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "campaign/app/commands.h"
 #include "campaign/app/summary_output.h"
+#include "runtime/command_line.h"
 
 namespace tern {
 namespace {
@@ -14,9 +14,9 @@ struct Options {
 
 }  // namespace
 
-void add_summarize(CLI::App& app, Command& chosen) {
+void add_summarize(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("summarize", "Print the summary of a file of flights");
+  CommandLine command = app.add_subcommand("summarize", "Print the summary of a file of flights");
   command->add_option("flights", options->flights, "Flights of a campaign")->required()->type_name("FLIGHTS.csv");
   command->add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");
   command->callback([&chosen, options] {

@@ -1,11 +1,11 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "logger/app/logger_node.h"
+#include "runtime/command_line.h"
 #include "runtime/process.h"
 
 int main(int argc, char** argv) {
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
       .section = "logger",
       .summary = "Records every message of every channel in a log, which LCM's tools can open",
       .add_options =
-          [&](CLI::App& app) {
+          [&](tern::CommandLine& app) {
             app.add_option("--record", path, "Log to write, or folder for flight.lcm. An existing log gets a new part")
                 ->type_name("PATH")
                 ->capture_default_str();

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
 #include "mavlink/app/mavlink_node.h"
+#include "runtime/command_line.h"
 #include "runtime/keys.h"
 #include "runtime/process.h"
 
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
       .section = "mavlink",
       .summary = "Flies SETPOINT with an autopilot over MAVLink, and publishes UAV_STATE and VEHICLE_STATUS",
       .add_options =
-          [&](CLI::App& app) {
+          [&](tern::CommandLine& app) {
             app.add_option("--connect", url,
                            "udp://ADDRESS:PORT (listens), udp://ADDRESS:PORT@ADDRESS:PORT (listens and sends first), "
                            "udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD");

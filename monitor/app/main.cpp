@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "monitor/app/monitor_node.h"
+#include "runtime/command_line.h"
 #include "runtime/process.h"
 
 int main(int argc, char** argv) {
@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
       .section = "",
       .summary =
           "Shows a flight, judges its end and writes a summary. Exit code: 0 reached, 1 collision, 2 timeout, 3 failed",
-      .add_options = [&options](CLI::App& app) {
+      .add_options = [&options](tern::CommandLine& app) {
         app.add_option("--summary", options.summary_file, "Write the summary as JSON")->type_name("FILE");
         app.add_option("--log", options.log, "Path of the recording, named in the summary")->type_name("FILE");
         app.add_option("--command", options.command, "Command line of the user, named in the summary")

@@ -1,6 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "runtime/command_line.h"
 #include "runtime/process.h"
 #include "simulator/app/make_vehicle.h"
 #include "simulator/app/simulator_config.h"
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
       .summary =
           "Simulates the world, the sensors and the vehicle of a scenario, and judges the flight (FLIGHT_RESULT)",
       .add_options =
-          [&recorded](CLI::App& app) {
+          [&recorded](tern::CommandLine& app) {
             app.add_flag("--recorded", recorded,
                          "Also wait for tern-logger, so that its log holds everything that a replay needs");
           },

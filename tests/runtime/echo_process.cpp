@@ -1,6 +1,5 @@
 // A process for tests: answers each GOAL with one of the next id on GOAL_ANSWER. Goal id 777 ends it with exit code 7;
 // its handler throws on 666. `section.period_s` exists so that configuration errors can be made.
-#include <CLI/CLI.hpp>
 #include <stdexcept>
 
 #include "messages/codec.h"

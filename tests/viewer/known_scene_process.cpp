@@ -1,6 +1,5 @@
 // known_scene_process: publishes the known scene, for the browser tests. With KNOWN_LOG=FILE it writes the scene to
 // that log instead; KNOWN_LEAD_S and KNOWN_COURSE are options of write_known_log. It prints each received goal.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>

@@ -1,9 +1,8 @@
 // tern-replay: plans every answer of a log again and compares.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "core/base/files.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
@@ -11,7 +10,7 @@
 #include "tools/replay/replay_report.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  tern::CommandLine app{
       "Plans every answer of a log again from its recorded inputs and compares the bytes. Exit code: 0 equal, 1 "
       "different, 2 bad arguments or log, 3 inputs are missing in the log."};
   std::string log, json, save, dump;

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "mavlink/sim/app/autopilot_sim_node.h"
+#include "runtime/command_line.h"
 #include "runtime/process.h"
 
 int main(int argc, char** argv) {
@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
       .section = "autopilot_sim",
       .summary = "A simulated quadrotor with an autopilot behind MAVLink, which behaves like PX4 or ArduPilot",
       .add_options =
-          [&](CLI::App& app) {
+          [&](tern::CommandLine& app) {
             app.add_option("--connect", url, "udpout://ADDRESS:PORT of the bridge, or another link");
           },
       .read_section = [](tern::ConfigSection section) { section.read<SimulatedAutopilotConfig>(); }};

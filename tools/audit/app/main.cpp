@@ -1,12 +1,12 @@
 // tern-audit: recomputes a recorded flight and says what was broken.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
 #include "core/base/files.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
@@ -30,7 +30,7 @@ int run(const std::string& log, const std::string& json_file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  tern::CommandLine app{
       "Recomputes a recorded flight and lists violations. Exit code: 0 held, 1 broken, 2 bad arguments or log."};
   app.set_version_flag("--version", fmt::format("tern-audit {}", tern::build_id()));
   std::string log, json;

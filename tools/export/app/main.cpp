@@ -1,15 +1,14 @@
 // tern-export: a recorded flight for other programs.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
 #include "tools/export/export_log.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  tern::CommandLine app{
       "Exports a recorded flight for other programs. Exit code: 0 written, 2 bad arguments or log, or unwritable "
       "file."};
   app.set_version_flag("--version", fmt::format("tern-export {}", tern::build_id()));

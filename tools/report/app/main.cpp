@@ -1,12 +1,12 @@
 // tern-report: draws a recorded flight as one HTML file.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 
 #include "core/base/files.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
@@ -32,7 +32,7 @@ std::string beside(const std::string& log) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  tern::CommandLine app{
       "Draws a recorded flight as one self-contained HTML file. Exit code: 0 written, 2 bad arguments or log."};
   app.set_version_flag("--version", fmt::format("tern-report {}", tern::build_id()));
   std::string log, page;

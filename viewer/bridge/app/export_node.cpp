@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 
 #include "core/base/files.h"
+#include "runtime/command_line.h"
 #include "runtime/config.h"
 #include "viewer/bridge/app/export_page.h"
 #include "viewer/bridge/app/film.h"
@@ -29,20 +29,19 @@ void write(const std::string& html, const std::string& file) {
 
 }  // namespace
 
-void add_export_options(CLI::App& app, ViewerOptions& options) {
+void add_export_options(CommandLine& app, ViewerOptions& options) {
   app.add_option("--export", options.export_to, "Write the log as one page that plays the flight")
       ->type_name("FILE.html");
-  auto* const video = app.add_option("--video", options.video_to, "Write the log as a film (needs Chromium and ffmpeg)")
-                          ->type_name("FILE.mp4|FILE.webp");
+  const CommandOption video =
+      app.add_option("--video", options.video_to, "Write the log as a film (needs Chromium and ffmpeg)")
+          ->type_name("FILE.mp4|FILE.webp");
   app.add_option("--video-size", options.film.size, "Size in pixels, even numbers (default 1280 720)")
       ->type_name("WIDTH HEIGHT")
       ->expected(2)
       ->allow_extra_args(false)
-      ->check(CLI::Range(64, 4096))
+      ->range(64, 4096)
       ->needs(video);
-  app.add_option("--video-rate", options.film.rate, "Frames per second (default 25)")
-      ->check(CLI::Range(1, 60))
-      ->needs(video);
+  app.add_option("--video-rate", options.film.rate, "Frames per second (default 25)")->range(1, 60)->needs(video);
   app.add_option("--video-part", options.film.part,
                  "Seconds since the vehicle's departure (default: from -0.5 to the end)")
       ->type_name("FROM TO")
@@ -51,20 +50,17 @@ void add_export_options(CLI::App& app, ViewerOptions& options) {
       ->needs(video);
 }
 
-void keep_logs_apart(CLI::App& app, const ViewerOptions& options) {
+void keep_logs_apart(CommandLine& app, const ViewerOptions& options) {
   app.final_callback([&app, &options] {
     if (options.log.empty()) return;
     const auto refuse = [&app](const char* name, const char* where) {
-      if (app.get_option(name)->count() == 0) return;
-      throw CLI::ValidationError(name, fmt::format("has no effect when {}", where));
+      if (app.has(name)) CommandLine::refuse(name, fmt::format("has no effect when {}", where));
     };
     for (const char* name : {"--config", "--set", "--lcm-url", "--clock-offset-us", "--allow-goals"}) {
       refuse(name, "a log is played");
     }
     for (const char* name : {"--key-file", "--key-fd"}) refuse(name, "a log is played (tern-key sift verifies one)");
-    CLI::Option& url = *app.get_option("--lcm-url");
-    url.add_result("memq://");
-    url.run_callback();
+    app.option("--lcm-url").set("memq://");
     if (options.export_to.empty() && options.video_to.empty()) return;
     for (const char* name : {"--listen", "--allow-host", "--url-file", "--looked-fd"})
       refuse(name, "a file is written");

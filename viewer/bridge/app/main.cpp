@@ -1,5 +1,5 @@
-#include <CLI/CLI.hpp>
 
+#include "runtime/command_line.h"
 #include "runtime/process.h"
 #include "viewer/bridge/app/export_node.h"
 
@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
       .name = "tern-viewer",
       .section = "",
       .summary = "Shows a flight in the browser, live or from a log",
-      .add_options = [&options](CLI::App& app) {
+      .add_options = [&options](tern::CommandLine& app) {
         app.add_option("--log,LOG", options.log, "Play this log instead of a live flight")->type_name("FILE");
         tern::add_export_options(app, options);
         app.add_option("--ghost", options.ghost, "Draw the flight of another log over it")->type_name("FILE");
