@@ -23,10 +23,10 @@ class CommandOption {
   explicit CommandOption(CLI::Option* option) : option_(option) {}
   CommandOption* operator->() { return this; }
 
-  CommandOption& type_name(const std::string& name);    ///< what --help prints for the value
+  CommandOption& type_name(const std::string& name);    ///< the name of the value in --help
   CommandOption& required();                            ///< the command line must have it
   CommandOption& capture_default_str();                 ///< --help prints the default
-  CommandOption& envname(const std::string& variable);  ///< where the value comes from if the option is absent
+  CommandOption& envname(const std::string& variable);  ///< gives the value if the option is absent
   CommandOption& range(int low, int high);              ///< refuses values outside [low, high]
   CommandOption& range(double low, double high);
   CommandOption& non_negative();
@@ -63,7 +63,7 @@ class CommandLine {
   void take_last();  ///< of options that are added later: the last value counts
 
   CommandLine add_subcommand(const std::string& name, const std::string& help);
-  void prefix_command();  ///< what follows its own options is a command line for another program
+  void prefix_command();  ///< all words after its own options belong to another program
   void require_subcommand(int least, int most);
   void callback(const std::function<void()>& run);        ///< if this subcommand is given, when it is parsed
   void final_callback(const std::function<void()>& run);  ///< when all is parsed
