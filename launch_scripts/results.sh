@@ -53,7 +53,7 @@ while (($#)); do
     --out) out=$(realpath -m "${2:?}") && shift 2 ;;
     --perception) campaigns=$perception coverage=(--coverage "$bin/tern-audit") && shift ;;
     --sensors) campaigns=$sensors && shift ;;
-    -h | --help) sed -n '2,7s/^# //p' "$0" && exit ;;
+    -h | --help) help_if_asked --help ;;
     -*) die "no option $1" ;;
     *) only+="$1 " && shift ;;
   esac

@@ -7,6 +7,7 @@ scenarios that a command names must exist. Prints a line per breach, `page:line:
 """
 
 import functools
+import os
 import re
 import shlex
 import subprocess
@@ -72,7 +73,7 @@ class Checker:
 
     @functools.lru_cache(maxsize=None)
     def help_of(self, command):
-        """What a program or script says of itself, and its subcommands; None if it is not there."""
+        """The output of --help of a program or script; None if it does not exist."""
         path = Path(command[0])
         if path.parent == SCRIPTS and path.name == "fly.sh":
             return (SCRIPTS / "fly.txt").read_text(encoding="utf-8")
@@ -80,7 +81,9 @@ class Checker:
             return self.help_of((str(self.programs / f"tern-{path.stem}"), *command[1:]))
         if not path.is_file():
             return None
-        done = subprocess.run([*command, "--help"], capture_output=True, text=True, timeout=30, stdin=subprocess.DEVNULL)
+        environment = os.environ | {"TERN_BIN": str(self.programs)}  # so that no script builds
+        done = subprocess.run([*command, "--help"], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL,
+                              env=environment)
         return done.stdout + done.stderr
 
     def program_of(self, word):
