@@ -114,7 +114,8 @@ void add_campaign(CommandLine& app, Command& chosen) {
   app.add_option("--jobs", options->jobs, "Number of flights at a time (default: one per core)")
       ->type_name("K")
       ->range(1, 10'000);
-  app.add_option("--out", options->out, "A line per flight; flights that it already holds are skipped")
+  app.add_option("--out", options->out,
+                 "File of results, a line per flight; seeds that it already holds are not flown again")
       ->type_name("FLIGHTS.csv");
   app.add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");
   app.add_option("--failures", options->failures, "Folder for flights that failed (default FLIGHTS.csv.failures)")

@@ -67,9 +67,9 @@ void add_compare(CommandLine& app, Command& chosen) {
   CommandLine command = app.add_subcommand("compare",
                                            "Compare two campaigns of a scenario over the same seeds, B against A; "
                                            "exit code 2: some flights are equal, "
-                                           "nothing can be inferred");
-  command->add_option("a", options->a, "One campaign's flights")->required()->type_name("A.csv");
-  command->add_option("b", options->b, "The other's")->required()->type_name("B.csv");
+                                           "so nothing can be inferred");
+  command->add_option("a", options->a, "Flights of campaign A")->required()->type_name("A.csv");
+  command->add_option("b", options->b, "Flights of campaign B")->required()->type_name("B.csv");
   command->add_option("--form", options->form, "A table in this form, or a drawing (default text)")
       ->one_of({"text", "markdown", "latex", "svg"});
   command->callback([&chosen, options] { chosen = [options] { return compare_files(*options); }; });

@@ -47,7 +47,7 @@ void add_flight_options(CommandLine& app, FlightOptions& options) {
                                        "coverage of predictions")
                             ->type_name("PROGRAM")
                             ->check(why_not_run);
-  app.add_option("--coverage", options.coverage, "The same for the coverage only, without a verdict")
+  app.add_option("--coverage", options.coverage, "Like --audit, but record the coverage only, not the verdict")
       ->type_name("PROGRAM")
       ->check(why_not_run)
       ->excludes(audit);

@@ -30,7 +30,7 @@ void add_merge(CommandLine& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   CommandLine command = app.add_subcommand("merge", "Merge the flights of several shards into one file");
   command->add_option("parts", options->parts, "Files of flights")->required()->type_name("PART.csv ...");
-  command->add_option("--out", options->out, "The merged file, by seed")->required()->type_name("FLIGHTS.csv");
+  command->add_option("--out", options->out, "The merged file, sorted by seed")->required()->type_name("FLIGHTS.csv");
   command->add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");
   command->callback([&chosen, options] { chosen = [options] { return merge(*options); }; });
 }

@@ -116,8 +116,8 @@ std::string to_markdown(const std::vector<ExposureSummary>& summaries) {
                        plus_minus(s.near_s), plus_minus(s.path_length_m), plus_minus(s.flight_time_s));
   }
   out +=
-      "\n| world | method | λ | exposure bought, m | within 1 m, m | longer path, m | later, s | bought per metre of "
-      "way |\n|---|---|---|---|---|---|---|---|\n";
+      "\n| world | method | λ | exposure gained, m | within 1 m, m | longer path, m | later, s | gained per metre of "
+      "longer path |\n|---|---|---|---|---|---|---|---|\n";
   for (const ExposureSummary& s : summaries) {
     if (s.method == "off") continue;
     const std::string rate =

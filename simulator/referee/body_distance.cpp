@@ -46,7 +46,8 @@ std::vector<Vec3> face_normals(const Points& v) {
 }  // namespace
 
 BodyDistance::BodyDistance(const Body& body) : vertices_(body.vertices), radius_(body.radius) {
-  if (vertices_.cols() < 1 || !vertices_.allFinite()) throw std::invalid_argument("body: no vertex, or one not finite");
+  if (vertices_.cols() < 1 || !vertices_.allFinite())
+    throw std::invalid_argument("body: there is no vertex, or a coordinate is not finite");
   if (!(radius_ >= 0.0) || !std::isfinite(radius_)) throw std::invalid_argument("body: radius negative or not finite");
   core_ = Box(vertices_.rowwise().minCoeff(), vertices_.rowwise().maxCoeff());
   bounds_ = grown(core_, Vec3::Constant(radius_));

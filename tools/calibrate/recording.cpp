@@ -35,7 +35,7 @@ Result<Recording> read_recording(const std::string& path) {
   });
   const auto contents = log.read(path);
   if (!contents) return tl::make_unexpected(contents.error());
-  if (recording.observations.empty()) return fail(path + ": no OBSTACLE_OBSERVATIONS in it");
+  if (recording.observations.empty()) return fail(path + ": holds no OBSTACLE_OBSERVATIONS");
   return recording;
 }
 
