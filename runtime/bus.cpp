@@ -283,6 +283,11 @@ void Bus::count_late_on(std::string_view name) {
   ++state_->channel(name).counters.late;
 }
 
+void Bus::refuse_on(std::string_view name, Rejection reason) {
+  const std::scoped_lock lock(state_->mutex);
+  count_refused(state_->channel(name), reason);
+}
+
 const std::string& Bus::suffix() const { return state_->suffix; }
 
 std::int64_t Bus::unsent() const { return state_->unsent; }

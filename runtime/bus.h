@@ -131,6 +131,11 @@ class Bus {
   void count_late(const Channel<T>& channel) {
     count_late_on(channel.name);
   }
+  /// Counts an accepted message that a node refuses because of what it knows, and logs that like any refusal.
+  template <class T>
+  void refuse(const Channel<T>& channel, Rejection reason) {
+    refuse_on(channel.name, reason);
+  }
   [[nodiscard]] std::int64_t unsent() const;      ///< paced messages replaced by a newer set before they were sent
   [[nodiscard]] std::int64_t deliveries() const;  ///< delivered messages, also refused ones; with keys: verified ones
 
@@ -159,6 +164,7 @@ class Bus {
   void reject(const std::string& channel, Rejection reason);
   bool admits(const std::string& channel, const MessageName& name, UTime claimed);
   void count_late_on(std::string_view channel);
+  void refuse_on(std::string_view channel, Rejection reason);
   void count_refused(ChannelState& channel, Rejection reason);
   /// Whether the sender of the message being delivered may use this process name.
   [[nodiscard]] bool may_report_as(std::string_view process) const;

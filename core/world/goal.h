@@ -22,4 +22,7 @@ struct Goal {
   Vec3 position = Vec3::Zero();  ///< W, m
 };
 
+/// Whether two goals ask for the same, whatever their ids and headers.
+inline bool same_goal(const Goal& a, const Goal& b) { return a.mode == b.mode && a.position == b.position; }
+
 }  // namespace tern

@@ -1,10 +1,12 @@
 #include "executor/app/executor_node.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "core/world/flyable.h"
 #include "core/world/names.h"
 #include "executor/commanded_motion.h"
 #include "messages/codec.h"
@@ -20,6 +22,8 @@ constexpr double kStationarySpeed = 0.3;
 constexpr Duration kStationaryFor{200'000};
 /// After this long at rest, the measured error is that of hovering.
 constexpr Duration kSettled{1'000'000};
+/// HEARTBEAT names a refused goal for this long.
+constexpr Duration kGoalRefusedReported{5'000'000};
 
 }  // namespace
 
@@ -27,6 +31,7 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
     : bus_(bus),
       uav_(uav),
       config_(config),
+      guard_(centre_box(uav.flight_box, uav.body)),
       tube_(config.tube_m),
       next_setpoint_(bus.clock().now()),
       next_goal_(next_setpoint_),
@@ -35,11 +40,22 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
+  bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
+}
+
+/// The planner counts the requests that it received, also those of an executor before this one.
+void ExecutorNode::on_heartbeat(const Heartbeat& heartbeat) {
+  if (executor_ || heartbeat.process != "tern-planner") return;
+  const auto requests = heartbeat.channels.find(channels::kHorizonRequest.name);
+  if (requests != heartbeat.channels.end() && requests->second.received > 0) has_flown_ = true;
 }
 
 void ExecutorNode::on_state(const UavState& state) {
+  inputs_.add_state(state.at, bus_.received());
   measured_yaw_ = state.yaw;
+  measured_ = state.motion.p;
   on_estimate_shift(resets_.add(state, bus_.received()));
+  if (!lost_.empty()) return;
   executor_ ? check_tracking(state) : wait_until_stationary(state);
 }
 
@@ -49,7 +65,11 @@ void ExecutorNode::wait_until_stationary(const UavState& state) {
     return;
   }
   if (!stationary_since_) stationary_since_ = state.at;
-  if (state.at - *stationary_since_ >= kStationaryFor) begin(state);
+  if (state.at - *stationary_since_ < kStationaryFor) return;
+  const auto refusal = status_.following ? guard_.check_start(measured_, uav_.start, has_flown_) : std::nullopt;
+  if (refusal) return refuse_start(*refusal);
+  refused_start_.clear();
+  begin(state);
 }
 
 void ExecutorNode::check_tracking(const UavState& state) {
@@ -64,7 +84,7 @@ void ExecutorNode::check_tracking(const UavState& state) {
   if (silent_since_ && check_after_silence(state, seen)) return;
   if (!following_) {
     if (!has_followed_) tube_.note_error(error);
-    if (error.maxCoeff() > kRejoinBeyond) rejoin(state);
+    if (error.maxCoeff() > kRejoinBeyond) rejoin(state, false);
     return;
   }
   const bool outside = (excess.cwiseMin(before).array() > kMinError).any();
@@ -76,7 +96,7 @@ void ExecutorNode::check_tracking(const UavState& state) {
     spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
                  error.x(), error.y(), error.z(), tube_exits_);
   }
-  if (lost) rejoin(state);
+  if (lost) rejoin(state, true);
 }
 
 void ExecutorNode::fall_silent_if_held_up(UTime now) {
@@ -100,7 +120,7 @@ bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error)
   const bool turns = tube.isZero(0.0) && ((state.motion.v - mine.v).cwiseAbs().maxCoeff() > kJoinTolerance ||
                                           (state.motion.a - mine.a).cwiseAbs().maxCoeff() > kJoinTolerance);
   const bool parted = turns || ((error - tube).array() > kJoinTolerance).any();
-  if (parted) rejoin(state);
+  if (parted) rejoin(state, false);
   last_setpoint_ = std::max(last_setpoint_, bus_.received());
   return parted;
 }
@@ -113,7 +133,11 @@ void ExecutorNode::on_estimate_shift(const std::optional<Vec3>& by) {
 
 void ExecutorNode::update_tube(UTime now) { executor_->set_tube(tube_.width(sigma_, now), tube_.share()); }
 
-void ExecutorNode::rejoin(const UavState& state) {
+/// While the vehicle does not follow, somebody else may fly it anywhere.
+void ExecutorNode::rejoin(const UavState& state, bool counts) {
+  const Vec3 commanded = executor_->sample(state.at).p;
+  const auto refusal = following_ ? guard_.check_rejoin(commanded, state.motion.p, counts, state.at) : std::nullopt;
+  if (refusal) return lose(*refusal);
   UavState from = state;
   if (state.at <= last_setpoint_) {  // a published setpoint stays: carry the state on to just after it
     from.at = last_setpoint_ + Duration{1};
@@ -123,6 +147,18 @@ void ExecutorNode::rejoin(const UavState& state) {
   }
   executor_->rejoin(from);
   last_setpoint_ = from.at;
+  if (!following_) return;
+  Box flown;
+  const ClampedSpline spline = executor_->committed().in_force_at(from.at).spline();
+  for (int j = 0; j < spline.intervals(); ++j) flown.extend(spline.position_bounds(j));
+  guard_.add_excursion(flown);
+}
+
+void ExecutorNode::lose(const std::string& why) {
+  lost_ = why;
+  spdlog::error("{}; no setpoints are sent any more", why);
+  following_ = false;
+  stop_following();
 }
 
 void ExecutorNode::begin(const UavState& state) {
@@ -131,35 +167,75 @@ void ExecutorNode::begin(const UavState& state) {
   update_tube(state.at);
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
+  has_flown_ = has_flown_ || following_;
   yaw_follower_.emplace(state.yaw, state.at, config_.heading);
   publish_setpoint(state.at);
   spdlog::info("begins with the vehicle at ({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
 }
 
 void ExecutorNode::on_status(const VehicleStatus& status) {
+  inputs_.add_status(status.at, bus_.received());
   sigma_ = status.position_sigma;
   on_estimate_shift(resets_.add(status.resets, bus_.received()));
   if (!status.mode.empty() && status.mode != kPerfectMode) tube_.assume_errors();
-  if (status.following == following_) return;
-  following_ = status.following;
-  spdlog::info("the vehicle {}", following_ ? "follows" : "does not follow: " + status.why_not);
-  if (!executor_) return;
-  if (following_) {
-    const UTime now = bus_.clock().now();
-    if (std::exchange(has_followed_, true)) {
-      fall_silent(now);
-    } else {
-      yaw_follower_.emplace(measured_yaw_, last_setpoint_, config_.heading);
-    }
-    update_tube(status.at);
-    return executor_->begin(now);
+  status_ = status;
+  update_following(bus_.clock().now());
+}
+
+std::string ExecutorNode::reason_not_to_follow(UTime now) const {
+  if (!lost_.empty()) return lost_;
+  if (!status_.following) return status_.why_not;
+  if (const auto trouble = inputs_.trouble(now)) return trouble->first + " is " + trouble->second;
+  if (following_ || !executor_) return "";
+  return guard_.check_start(measured_, uav_.start, has_flown_).value_or("");
+}
+
+void ExecutorNode::update_following(UTime now) {
+  if (inputs_.usable(now)) {
+    counters_at_loss_.reset();
+  } else if (!counters_at_loss_) {
+    counters_at_loss_ = bus_.counters();
   }
+  const std::string why_not = reason_not_to_follow(now);
+  if (executor_ && !has_flown_ && status_.following && inputs_.usable(now) && !why_not.empty())
+    return refuse_start(why_not);
+  if (why_not.empty() == following_) return;
+  following_ = !following_;
+  spdlog::info("the vehicle {}", following_ ? "follows" : "does not follow: " + why_not);
+  if (!executor_) return;
+  following_ ? start_following(now) : stop_following();
+}
+
+void ExecutorNode::refuse_start(const std::string& why) {
+  if (refused_start_.empty()) spdlog::error("does not start: {}", why);
+  refused_start_ = why;
+  executor_.reset();
+  stationary_since_.reset();
+}
+
+void ExecutorNode::start_following(UTime now) {
+  const bool again = std::exchange(has_followed_, true) || has_flown_;
+  has_flown_ = true;
+  if (again) {
+    fall_silent(now);
+  } else {
+    yaw_follower_.emplace(measured_yaw_, last_setpoint_, config_.heading);
+  }
+  update_tube(status_.at);
+  executor_->begin(now);
+}
+
+void ExecutorNode::stop_following() {
   executor_->pause();
   drop_unsent_plan();
   log_counters();
 }
 
 void ExecutorNode::on_goal(const Goal& goal) {
+  if (goal_ && goal.id == goal_->id && !same_goal(goal, *goal_)) {
+    bus_.refuse(channels::kGoal, Rejection::Inconsistent);
+    goal_refused_ = bus_.clock().now();
+  }
   if (goal_ && goal.id <= goal_->id) return;
   spdlog::info("goal {}: mode {}, ({:.2f}, {:.2f}, {:.2f}) m", goal.id, to_string(goal.mode), goal.position.x(),
                goal.position.y(), goal.position.z());
@@ -183,14 +259,16 @@ void ExecutorNode::on_plan(const Plan& plan) {
 }
 
 UTime ExecutorNode::next_wakeup() const {
-  const UTime next = goal_ ? next_goal_ : kNever;
+  UTime next = goal_ ? next_goal_ : kNever;
   if (!executor_) return next;
+  if (following_) next = std::min(next, inputs_.usable_until() + Duration{1});
   const auto request = silent_since_ ? std::nullopt : executor_->next_wakeup();
   return std::min({next, next_setpoint_, request.value_or(kNever)});
 }
 
 void ExecutorNode::step(UTime now) {
-  if (executor_) {
+  update_following(now);
+  if (executor_ && lost_.empty()) {
     fall_silent_if_held_up(now);
     const auto due = silent_since_ ? std::nullopt : executor_->next_wakeup();
     if (due && now >= *due) update_tube(now);
@@ -217,6 +295,7 @@ void ExecutorNode::publish_setpoints(UTime now) {
   for (const CubicPiece& piece : executor_->pieces(last_setpoint_, now).pieces) {
     at = at + piece.duration;
     publish_setpoint(at);
+    if (!lost_.empty()) return;
   }
 }
 
@@ -224,6 +303,9 @@ void ExecutorNode::publish_setpoint(UTime at) {
   UavState setpoint;
   setpoint.at = at;
   setpoint.motion = executor_->sample_after(at);
+  if (following_ && !guard_.may_command(setpoint.motion.p)) {
+    return lose("the committed trajectory leaves uav.flight_box too far");
+  }
   setpoint.yaw = yaw_follower_->follow(setpoint.motion.v, at);
   bus_.publish(channels::kSetpoint, setpoint);
   last_setpoint_ = at;
@@ -243,8 +325,31 @@ void ExecutorNode::log_counters() const {
   }
 }
 
+/// How an input that is not usable was refused since then: " (refused: number)"; empty if it was not.
+std::string ExecutorNode::refusal_text() const {
+  const auto trouble = inputs_.trouble(bus_.clock().now());
+  if (!trouble || !counters_at_loss_) return "";
+  const auto counters = bus_.counters();
+  const auto before = counters_at_loss_->find(trouble->first), after = counters.find(trouble->first);
+  if (after == counters.end()) return "";
+  for (int k = 0; k < kRejections; ++k) {
+    const std::int64_t earlier = before == counters_at_loss_->end() ? 0 : before->second.rejected[k];
+    if (after->second.rejected[k] > earlier) {
+      return fmt::format(" (refused: {})", to_string(static_cast<Rejection>(k)));
+    }
+  }
+  return "";
+}
+
 NodeHealth ExecutorNode::health() const {
-  if (!executor_) return {ProcessState::Waiting, "a vehicle at rest (UAV_STATE)"};
+  const UTime now = bus_.clock().now();
+  if (!lost_.empty()) return {ProcessState::Failed, lost_};
+  if (!refused_start_.empty()) return {ProcessState::Waiting, refused_start_};
+  if (!executor_) return {ProcessState::Waiting, "a vehicle at rest (UAV_STATE)" + refusal_text()};
+  if (status_.following && !following_) return {ProcessState::Waiting, reason_not_to_follow(now) + refusal_text()};
+  if (goal_refused_ && now - *goal_refused_ < kGoalRefusedReported) {
+    return {ProcessState::Ready, fmt::format("refused a goal: its id {} is in use for another one", goal_->id)};
+  }
   return {ProcessState::Ready, ""};
 }
 

@@ -2,14 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "core/world/goal.h"
+#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/scenario.h"
 #include "core/world/vehicle_status.h"
 #include "executor/estimate_resets.h"
 #include "executor/executor.h"
+#include "executor/rejoin_guard.h"
+#include "executor/vehicle_inputs.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 
@@ -28,6 +33,10 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// | Holding   | the vehicle is stationary: its position is committed          | SETPOINT, GOAL | no                |
 /// | Following | VEHICLE_STATUS reports that the vehicle follows               | SETPOINT, GOAL | unless mode Stop   |
 /// | Silent    | no setpoint for kSetpointSilence, or the vehicle follows again | GOAL          | no                |
+/// | Lost      | a rejoin is refused (RejoinGuard)                             | GOAL           | no                |
+///
+/// The vehicle follows if VEHICLE_STATUS says so, UAV_STATE and VEHICLE_STATUS are usable (VehicleInputs), and it is
+/// inside the flight box. HEARTBEAT says which of these fails.
 ///
 /// The vehicle is stationary at the start of a flight. After a restart in flight it first flies the trajectory that was
 /// committed before to its end. GOAL is the goal received last, at 1 Hz.
@@ -38,13 +47,17 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// | beyond the tube by > kRejoinBeyond (3 states)  | Following | rejoin                                              |
 /// | off the setpoint by > kRejoinBeyond (3 states) | Holding   | rejoin                                              |
 /// | first UAV_STATE since the silence began        | Silent    | Silent ends; rejoin if it is off the trajectory     |
-/// | the vehicle stops following, or mode Stop      | Following | a plan that no request contained yet is dropped     |
+/// | the vehicle stops following, or mode Stop      | Following | a plan that no request contained yet is dropped;    |
+/// |                                                |           | the committed trajectory is flown to its end        |
+/// | a start that RejoinGuard refuses               | Holding   | Waiting, with the reason                            |
+/// | a GOAL with the id in use and other contents   | any       | refused and counted as inconsistent                 |
 /// | the vehicle follows for the first time         | Holding   | the yaw starts at the measured yaw                  |
 /// | the estimator is reset after that              | any       | the tube grows by the shift                         |
 ///
 /// Rejoin means: commit to a braking trajectory from the measured state; the next plan starts on it. The yaw starts
 /// anew because estimators correct it during take-off. Silent is needed because the vehicle may not have received the
-/// plan that was adopted last.
+/// plan that was adopted last. Lost has no way out but a restart: the vehicle's own failsafe takes over when setpoints
+/// cease.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);
@@ -57,6 +70,8 @@ class ExecutorNode final : public Node {
   [[nodiscard]] const Executor* executor() const { return executor_ ? &*executor_ : nullptr; }
   /// Number of times that the vehicle has left its tube.
   [[nodiscard]] std::int64_t tube_exits() const { return tube_exits_; }
+  /// The reason of state Lost; empty in the other states.
+  [[nodiscard]] const std::string& lost() const { return lost_; }
   /// All zero in state Waiting.
   [[nodiscard]] ExecutorCounters counters() const { return executor_ ? executor_->counters() : ExecutorCounters(); }
 
@@ -65,10 +80,21 @@ class ExecutorNode final : public Node {
   void on_status(const VehicleStatus& status);
   void on_goal(const Goal& goal);
   void on_plan(const Plan& plan);
+  void on_heartbeat(const Heartbeat& heartbeat);
+  /// Decides whether the vehicle follows, and acts if that has changed.
+  void update_following(UTime now);
+  /// Why the vehicle does not follow, in words; empty if it does.
+  [[nodiscard]] std::string reason_not_to_follow(UTime now) const;
+  [[nodiscard]] std::string refusal_text() const;
+  void refuse_start(const std::string& why);
+  void start_following(UTime now);
+  void stop_following();
   void wait_until_stationary(const UavState& state);
   void begin(const UavState& state);
   void check_tracking(const UavState& state);
-  void rejoin(const UavState& state);
+  /// @param counts  whether the shift counts for RejoinGuard
+  void rejoin(const UavState& state, bool counts);
+  void lose(const std::string& why);
   /// Enters Silent if the newest setpoint is older than kSetpointSilence.
   void fall_silent_if_held_up(UTime now);
   void fall_silent(UTime now);
@@ -88,7 +114,15 @@ class ExecutorNode final : public Node {
   std::optional<Executor> executor_;
   std::optional<UTime> stationary_since_;
   std::optional<Goal> goal_;
+  VehicleInputs inputs_;
+  RejoinGuard guard_;
+  VehicleStatus status_;          ///< newest; does not follow before the first
+  Vec3 measured_ = Vec3::Zero();  ///< position, newest, m, W
   bool following_ = false, has_followed_ = false;
+  bool has_flown_ = false;            ///< plans were requested, by this executor or one before it
+  std::string refused_start_, lost_;  ///< reasons in words
+  std::optional<std::map<std::string, ChannelCounters>> counters_at_loss_;  ///< when an input ceased to be usable
+  std::optional<UTime> goal_refused_;
   std::optional<UTime> silent_since_;  ///< set in state Silent: a UAV_STATE of this time or later ends it
   Tube tube_;
   EstimateResets resets_;

@@ -55,7 +55,7 @@ void WorldIntake::forget_before(std::int64_t epoch_us) {
     return goal && (goal->header.name.sender_epoch_us == epoch_us || goal->header.utime.us > epoch_us);
   };
   if (is_of_this_flight(newest_goal_)) return;
-  newest_goal_ = is_of_this_flight(smaller_id_goal_) ? smaller_id_goal_ : std::nullopt;
+  newest_goal_ = is_of_this_flight(other_goal_) ? other_goal_ : std::nullopt;
   publish(++goal_number_, nullptr);
   publish_goal_to_hold();
 }
@@ -83,8 +83,10 @@ void WorldIntake::on_goal(const Goal& goal) {
   const UTime now = bus_.received();
   const bool is_vehicles = goal.header.name.sender_epoch_us == vehicle_.sender_epoch_us;
   const bool is_kept_by_vehicle = is_vehicles && now - goal_received_ > kGoalTaken;
-  if (newest_goal_ && goal.id < newest_goal_->id && !is_kept_by_vehicle) {
-    smaller_id_goal_ = goal;
+  const bool is_conflicting = newest_goal_ && goal.id == newest_goal_->id && !same_goal(goal, *newest_goal_);
+  if (newest_goal_ && (goal.id < newest_goal_->id || is_conflicting) && !is_kept_by_vehicle) {
+    if (is_conflicting) bus_.refuse(channels::kGoal, Rejection::Inconsistent);
+    other_goal_ = goal;
     return;
   }
   goal_received_ = now;

@@ -31,6 +31,7 @@ inline constexpr Duration kGoalTaken{500'000};
 /// |                            | new static tracks, body or flight box                                               |
 /// | a goal to hold or stop     | used at once: it needs no field                                                     |
 /// | a goal with a smaller id   | ignored, unless the vehicle sends it kGoalTaken after the last one                  |
+/// | other contents, same id    | the same, and counted as refused: inconsistent                                      |
 /// | requests of a new vehicle  | goals sent before that flight and remembered static tracks are discarded            |
 ///
 /// Without a worker (virtual time) products are made at once.
@@ -70,7 +71,7 @@ class WorldIntake {
   std::optional<VoxelMap> pending_map_;
   std::optional<Goal> newest_goal_;
   UTime goal_received_;
-  std::optional<Goal> smaller_id_goal_;  ///< the newest goal with a smaller id: it may belong to the next flight
+  std::optional<Goal> other_goal_;  ///< the newest goal that was not taken for its id: it may belong to the next flight
   std::int64_t goal_number_ = 0;         ///< counts the values of newest_goal_
   Box body_;                             ///< of the vehicle, about its position
   Box flight_box_;

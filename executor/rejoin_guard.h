@@ -1,0 +1,64 @@
+// Bounds how far and how often the committed trajectory may be moved to where the vehicle is measured.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/time.h"
+#include "core/base/types.h"
+
+namespace tern {
+
+/// A rejoin moves the commanded position to the measured one. The estimate may be in another frame than the autopilot:
+/// after a loop closure, in NED, in millimetres. Then the vehicle moves along, and the next measurement is equally far
+/// off. The guard ends this positive feedback.
+///
+/// | the measured position                                            | answer                                      |
+/// |------------------------------------------------------------------|---------------------------------------------|
+/// | outside the flight box by more than kStartOutside, at a start    | refused                                     |
+/// | farther than kStartReach from uav.start, at a start              | refused                                     |
+/// | outside the bound below, when the vehicle follows again          | refused                                     |
+/// | outside the flight box by up to kMaxExcursion, the first time    | allowed; the excursion is the new bound     |
+/// | outside that bound                                               | refused                                     |
+/// | off the trajectory, sum of shifts up to kMaxShift                | allowed; the sum decays by kForgiven        |
+/// | off the trajectory, sum above kMaxShift                          | refused                                     |
+///
+/// After a refusal of check_rejoin() the vehicle must not be commanded any further.
+class RejoinGuard {
+ public:
+  static constexpr double kStartOutside = 0.5;    ///< m beyond the flight box, per axis: a vehicle that climbs there
+  static constexpr double kStartReach = 5.0;      ///< m, as the autopilot bridge has it (mavlink.reach_m)
+  static constexpr double kMaxExcursion = 2.0;    ///< m beyond the flight box, per axis
+  static constexpr double kExcursionStep = 0.25;  ///< m: later excursions may exceed the first one by this
+  static constexpr double kMaxShift = 3.0;        ///< m: sum of the rejoins' distances
+  static constexpr double kForgiven = 0.05;       ///< m/s: the sum decays at this rate
+
+  /// @param allowed  where the vehicle's centre may be so that its body is inside the flight box, W
+  explicit RejoinGuard(const Box& allowed) : allowed_(allowed) {}
+
+  /// @param start  uav.start @param has_flown  whether the vehicle was commanded before
+  /// @return why the vehicle at p must not be commanded, as text; nullopt if it may
+  [[nodiscard]] std::optional<std::string> check_start(const Vec3& p, const Vec3& start, bool has_flown) const;
+  /// Checks a rejoin and adds it to the sum if it is allowed.
+  /// @param commanded  position of the committed trajectory; measured: of the vehicle, both at the same time
+  /// @param counts  false if the shift is not the estimate's: the vehicle was not following, or the executor was silent
+  /// @return why the vehicle must not be commanded any further, as text; nullopt if it may rejoin
+  [[nodiscard]] std::optional<std::string> check_rejoin(const Vec3& commanded, const Vec3& measured, bool counts,
+                                                        UTime at);
+  /// Takes the trajectory that a rejoin has committed to. If it leaves the flight box, its bounds are the first
+  /// excursion. @param flown  bounds of the positions
+  void add_excursion(const Box& flown);
+  /// Whether a setpoint at p may be published.
+  [[nodiscard]] bool may_command(const Vec3& p) const;
+
+ private:
+  /// Where the vehicle may be commanded: the flight box and the first excursion, or kMaxExcursion before there is one.
+  [[nodiscard]] Box bound() const;
+
+  Box allowed_;
+  std::optional<Box> excursion_;
+  double shift_ = 0.0;  ///< m, at last_
+  UTime last_;
+};
+
+}  // namespace tern
