@@ -1,5 +1,6 @@
 #include "simulator/app/simulator_node.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -27,6 +28,8 @@ constexpr Duration kEcho{300'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
+/// An external vehicle's truth may be this late at the end of a flight's time.
+constexpr Duration kTruthLate{1'000'000};
 constexpr const char* kMapperProcess = "tern-mapper";
 
 UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }
@@ -51,6 +54,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
                              const SimulatorConfig& config)
     : bus_(bus),
       config_(config),
+      timeout_s_(flight_timeout_s(scenario)),
       gate_(config.wait_for, bus.epoch_us(), config.max_clock_skew),
       give_up_at_(bus.clock().now() + config.wait),
       vehicle_(std::move(vehicle)),
@@ -228,9 +232,19 @@ void SimulatorNode::judge(UTime now) {
   if (!world_zero_ || result_) return;
   const UTime from = *world_zero_ + referee_.now();
   const UTime to = std::min(now, vehicle_->truth().end());
-  if (to <= from) return;
+  if (to <= from) return end_without_truth(now);
   for (const CubicPiece& piece : vehicle_->truth().pieces(from, to).pieces) referee_.advance(referee_.now(), piece);
   if (const auto verdict = referee_.verdict()) end_flight(*verdict, 0, now);
+}
+
+/// The referee's time follows the vehicle's truth. If that ceases, the flight ends when its time is over all the same.
+void SimulatorNode::end_without_truth(UTime now) {
+  if (!config_.external || (now - *world_zero_).seconds() < timeout_s_ + kTruthLate.seconds()) return;
+  FlightResult result = referee_.result_so_far();
+  result.outcome = FlightOutcome::Timeout;
+  result.detail = fmt::format("{:g} s are over; the vehicle's position was last received at {:.1f} s", timeout_s_,
+                              referee_.now().seconds());
+  end_flight(result, 0, now);
 }
 
 void SimulatorNode::end_flight(const FlightResult& result, int exit_code, UTime now) {

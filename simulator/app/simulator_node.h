@@ -79,10 +79,12 @@ class SimulatorNode final : public Node {
   [[nodiscard]] std::string why_not_flying(UTime now) const;
   void admit(UTime now);
   void judge(UTime now);
+  void end_without_truth(UTime now);
   void end_flight(const FlightResult& result, int exit_code, UTime now);
 
   Bus& bus_;
   SimulatorConfig config_;
+  double timeout_s_;
   StartGate gate_;
   UTime give_up_at_;
   std::unique_ptr<Vehicle> vehicle_;
