@@ -218,6 +218,8 @@ void Bus::listen(Listener listener) {
   state_->all_channels->setQueueCapacity(kListenCapacity);
 }
 
+bool Bus::listens() const { return static_cast<bool>(state_->listener); }
+
 void Bus::reject(const std::string& name, Rejection reason) {
   const std::scoped_lock lock(state_->mutex);
   ChannelState& channel = state_->channel(name);

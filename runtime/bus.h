@@ -121,6 +121,7 @@ class Bus {
       std::function<void(std::string_view wire_name, std::int64_t received_us, std::span<const std::uint8_t> bytes)>;
   /// Installs the listener; there is at most one. LCM's queue for it holds kListenCapacity messages.
   void listen(Listener listener);
+  [[nodiscard]] bool listens() const;  ///< whether a listener is installed
 
   [[nodiscard]] UTime next_due() const;  ///< when a paced message is due; kNever if none waits
   void send_due(UTime now);              ///< sends the messages that are due, at most one per channel

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <chrono>
 #include <lcm/lcm-cpp.hpp>
 #include <optional>
 #include <string_view>
@@ -78,9 +79,14 @@ Result<std::shared_ptr<lcm::LCM>> open_lcm(const std::string& url) {
   return lcm;
 }
 
-int drain(lcm::LCM& lcm, int limit) {
+int drain(lcm::LCM& lcm, int limit, std::optional<Duration> at_most) {
+  using Steady = std::chrono::steady_clock;
+  const auto end = at_most ? Steady::now() + std::chrono::microseconds(at_most->us) : Steady::time_point::max();
   int handled = 0;
-  while (handled < limit && lcm.handleTimeout(0) > 0) ++handled;
+  while (handled < limit && lcm.handleTimeout(0) > 0) {
+    ++handled;
+    if (at_most && Steady::now() >= end) break;
+  }
   return handled;
 }
 

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/base/result.h"
+#include "core/base/time.h"
 
 namespace lcm {
 class LCM;
@@ -28,6 +30,7 @@ std::string choose_lcm_url(const std::string& option, const char* environment);
 Result<std::shared_ptr<lcm::LCM>> open_lcm(const std::string& url);
 
 /// Handles up to `limit` waiting messages without blocking. @return the number handled.
-int drain(lcm::LCM& lcm, int limit);
+/// @param at_most  no further message is begun after this time, by the system's clock
+int drain(lcm::LCM& lcm, int limit, std::optional<Duration> at_most = {});
 
 }  // namespace tern

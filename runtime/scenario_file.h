@@ -16,8 +16,8 @@ inline constexpr const char* kProcessSections[] = {"simulator", "executor", "pre
 inline constexpr const char* kGenerators[] = {"none",          "paper_corridor", "paper_attract", "paper_repel",
                                               "corridor_demo", "mader_corridor", "sando_forest",  "step_aside"};
 
-/// Reads name, seed, world, uav, semantics and timeout_s (docs/reference/scenarios.md lists every key). The processes read
-/// their own sections. A missing name is the file's name without folder and extension.
+/// Reads name, seed, world, uav, semantics and timeout_s (docs/reference/scenarios.md lists every key). The processes
+/// read their own sections. A missing name is the file's name without folder and extension.
 /// @throws ConfigError for a value that is not allowed, alone or together with others. Examples of the latter: start or
 ///   goal (with the body) outside the flight box; a name given twice; a polygon that crosses itself. A region's class
 ///   must be listed.

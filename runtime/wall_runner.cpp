@@ -14,9 +14,12 @@
 namespace tern {
 namespace {
 
-/// Most messages between two steps, so that a flood does not keep the node from its deadlines.
+/// A flood of messages must not keep the node from its deadlines, its heartbeat and SIGTERM: neither many messages nor
+/// messages that take long.
 constexpr int kMaxMessagesPerStep = 1'000;
-/// Longest sleep. A node that only reacts to messages has no wakeup (kNever).
+constexpr Duration kMaxTimePerStep{20'000};
+constexpr Duration kMaxTimeAtStop{100'000};
+/// No longer sleep: a node that waits for messages only says kNever.
 constexpr Duration kMaxSleep{1'000'000};
 
 /// Blocks until a descriptor is readable or the time has come. @return whether fds[1], the stop, is readable.
@@ -37,7 +40,7 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
   const Clock& clock = host.bus().clock();
   pollfd fds[2] = {{lcm.getFileno(), POLLIN, 0}, {stop_fd, POLLIN, 0}};
   while (true) {
-    drain(lcm, kMaxMessagesPerStep);
+    drain(lcm, kMaxMessagesPerStep, kMaxTimePerStep);
     host.bus().rethrow();
     const UTime now = clock.now();
     if (host.is_due(now)) host.step(now);
@@ -45,7 +48,8 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
     const UTime wakeup = host.next_wakeup();
     const Duration sleep = std::min(wakeup - clock.now(), kMaxSleep);
     if (wait(fds, clock.in_system_time(sleep))) {
-      drain(lcm, kListenCapacity);  // so that a recorder keeps messages that have arrived
+      // A recorder keeps all messages that have arrived; the others only look at them.
+      drain(lcm, kListenCapacity, host.bus().listens() ? std::nullopt : std::optional(kMaxTimeAtStop));
       host.bus().rethrow();
       return 0;
     }

@@ -12,6 +12,7 @@
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
 #include "predictor/models/prediction_interval.h"
+#include "predictor/tracking/matching.h"
 #include "predictor/tracking/prediction_scorer.h"
 #include "predictor/tracking/rest_record.h"
 #include "predictor/tracking/tracked_object.h"
@@ -62,6 +63,10 @@ inline constexpr double kRestingSpeed = 0.05;
 /// TRACK_BOUNDS reports the bounds at the end of the piece that contains this time ahead.
 inline constexpr Duration kBoundsAhead{1'000'000};
 
+/// At most this many tracks are tentative at once. Sensors with many false detections would otherwise take the time of
+/// the confirmed tracks: 256 cost some 3 ms per set.
+inline constexpr std::size_t kMaxTentative = 256;
+
 struct TrackerConfig {
   PredictionSpec prediction;
   int confirm_hits = 3;             ///< a track is confirmed after this many detections …
@@ -92,7 +97,8 @@ enum class UpdateOutcome {
 /// 1. It predicts every track to the time of the observation set.
 /// 2. It matches detections to tracks (matching.h), and updates the matched tracks.
 /// 3. It counts hits and misses, confirms and deletes tracks.
-/// 4. Each detection that is left starts a tentative track. Ids are common to all sensors.
+/// 4. Each detection that is left starts a tentative track, the nearest to the sensor first, up to kMaxTentative. Ids
+///    are common to all sensors.
 ///
 /// Only the sensor that detected a track last can miss it, because sensors see different things at different rates. A
 /// set *counts* for a track if it is from that sensor or detects the track.
@@ -131,6 +137,8 @@ class Tracker {
 
   /// All tracks, tentative ones included, ascending by id, at newest().
   [[nodiscard]] const std::vector<TrackedObject>& objects() const { return newest_state().objects; }
+  /// The number of detections in the newest set that started no track, because kMaxTentative tracks are tentative.
+  [[nodiscard]] std::size_t not_started() const { return newest_state().not_started; }
   /// The record of stationary tracks, at newest().
   [[nodiscard]] const RestRecord& rest() const { return newest_state().rest; }
   /// The time of the newest observation set; 0 if there is none.
@@ -157,6 +165,7 @@ class Tracker {
     std::vector<TrackedObject> objects;
     RestRecord rest;
     ExistenceRecord existence;
+    std::size_t not_started = 0;  // detections of the newest set that found no room for a track
   };
   struct Step {
     ObservationSet observations;
@@ -164,6 +173,7 @@ class Tracker {
   };
   [[nodiscard]] const State& newest_state() const { return steps_.empty() ? before_steps_ : steps_.back().after; }
   void advance(State& state, const ObservationSet& observations) const;
+  static std::vector<std::size_t> starting(State& state, const ObservationSet& from, const Matching& matching);
   void predict_to(State& state, UTime at) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from,
