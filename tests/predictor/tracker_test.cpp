@@ -126,7 +126,7 @@ TEST(Tracker, AFloodOfFalseDetectionsLeavesRoomForTheNearestAndIsCounted) {
   }
   EXPECT_GT(tracker.not_started(), 0u);
   const auto nearest = std::ranges::min_element(
-      tracker.objects(), {}, [&](const TrackedObject& o) { return (o.position() - mover(t)).norm(); });
+      tracker.objects(), {}, [&](const TrackedObject& o) { return (o.position - mover(t)).norm(); });
   EXPECT_TRUE(nearest->confirmed) << "the mover beside the sensor is tracked";
 }
 
