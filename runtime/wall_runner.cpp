@@ -14,12 +14,12 @@
 namespace tern {
 namespace {
 
-/// A flood of messages must not keep the node from its deadlines, its heartbeat and SIGTERM: neither many messages nor
-/// messages that take long.
+/// Most messages, and longest time, between two steps. A flood must not keep the node from its deadlines, its heartbeat
+/// and SIGTERM.
 constexpr int kMaxMessagesPerStep = 1'000;
 constexpr Duration kMaxTimePerStep{20'000};
-constexpr Duration kMaxTimeAtStop{100'000};
-/// No longer sleep: a node that waits for messages only says kNever.
+constexpr Duration kMaxTimeAtStop{100'000};  // after SIGTERM
+/// Longest sleep. A node that only reacts to messages has no wakeup (kNever).
 constexpr Duration kMaxSleep{1'000'000};
 
 /// Blocks until a descriptor is readable or the time has come. @return whether fds[1], the stop, is readable.
