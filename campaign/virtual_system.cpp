@@ -37,7 +37,7 @@ struct VirtualSystem::Parts {
         scenario(read_scenario(document)),
         executor(document.root().section("executor").read<ExecutorConfig>()),
         predictor(read_predictor_config(document.root().section("predictor"))),
-        map(load_map(scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"))),
+        map(load_map(scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA")).map),
         planner(read_planner_config(document.root().section("planner"), scenario.semantics)) {}
 };
 

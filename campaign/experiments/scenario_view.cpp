@@ -57,6 +57,25 @@ Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr
   return measured(std::move(*points), view.scenario.semantics.regions);
 }
 
+std::string place(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
+
+/// Returns "the occupied voxel at (1.1, 0.1, 0.1) of the map" if the body at the start touches one that the planner
+/// avoids; "" for none.
+std::string voxel_at_the_start(const ScenarioView& view, const VoxelMap& map) {
+  const UavSpec& uav = view.scenario.uav;
+  const BodyDistance distance(uav.body);
+  for (const Box& box : view.occupied) {
+    if (distance(uav.start - box.center(), 0.5 * box.sizes()) > 0.0) continue;
+    const double inside = 1e-3 * map.grid.resolution;
+    const Vec3 nearest =
+        uav.start.cwiseMax(box.min() + Vec3::Constant(inside)).cwiseMin(box.max() - Vec3::Constant(inside));
+    const Eigen::Vector3i cell = map.grid.cell_of(nearest);
+    const VoxelLabel label = map.labels[idx(map.grid.index(cell))];
+    return fmt::format("the {} voxel at {} of the map", to_string(label), place(map.grid.centre(cell)));
+  }
+  return "";
+}
+
 /// Returns the obstacle in which the body starts, as "obstacle 3 'post'"; "" for none.
 std::string around_the_start(const ScenarioView& view) {
   const UavSpec& uav = view.scenario.uav;
@@ -68,8 +87,6 @@ std::string around_the_start(const ScenarioView& view) {
   }
   return "";
 }
-
-std::string place(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
 
 const std::string& label_of(const Scenario& scenario, const Region& region) {
   const auto& classes = scenario.semantics.classes;
@@ -194,8 +211,10 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
   (void)check_inputs(inputs, view.scenario.seed);
   const auto simulator = read_simulator_config(document.root().section("simulator"), view.scenario.seed);
   view.world = flyable_world_of(view.scenario, simulator);
-  const VoxelMap map =
+  LoadedMap loaded =
       load_map(view.scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"));
+  const VoxelMap& map = loaded.map;
+  view.clouds = std::move(loaded.remarks);
   PlannerConfig planner = read_planner_config(document.root().section("planner"), view.scenario.semantics);
   const auto weighed = std::make_shared<const MapProducts>(map, planner);
   view.occupied = weighed->occupied.boxes();
@@ -203,7 +222,8 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
                          map.grid.size.y(), map.grid.size.z(), map.grid.resolution, view.occupied.size());
   planner.semantics = false;
   const auto shortest = path_between(view, std::make_shared<const MapProducts>(map, planner));
-  const std::string around = around_the_start(view);
+  std::string around = around_the_start(view);
+  if (around.empty()) around = voxel_at_the_start(view, map);
   if (!around.empty() || !shortest) {
     view.blocked = around.empty() ? shortest.error().message : "the start lies in " + around;
     return view;
@@ -219,7 +239,11 @@ std::string to_text(const ScenarioView& view) {
   std::string text = fmt::format("{} ({}), seed {}\n", s.name, s.file, s.seed);
   text += fmt::format("  vehicle   from {} to {}, {:.1f} m straight\n", place(s.uav.start), place(s.uav.goal),
                       (s.uav.goal - s.uav.start).norm());
-  text += fmt::format("  world     {}\n  map       {}\n", world_text(view.world), view.map) + regions_text(view);
+  text += fmt::format("  world     {}\n  map       {}\n", world_text(view.world), view.map);
+  for (const MapRemark& remark : view.clouds) {
+    text += fmt::format("  {}     {}\n", remark.is_warning ? "WARNING" : "cloud  ", remark.text);
+  }
+  text += regions_text(view);
   if (!view.shortest) return text + fmt::format("  goal      cannot be reached by this body: {}\n", view.blocked);
   text += fmt::format("  goal      can be reached: {:.1f} m around static obstacles (moving ones are ignored)\n",
                       view.shortest->length_m);

@@ -7,6 +7,7 @@
 
 #include "campaign/flight_inputs.h"
 #include "core/world/scenario.h"
+#include "semantic_mapper/app/cloud_report.h"
 #include "simulator/worlds/world.h"
 
 namespace tern {
@@ -24,6 +25,7 @@ struct ScenarioView {
   World world;
   std::vector<Box> occupied;            ///< of the map, W
   std::string map;                      ///< extents as text
+  std::vector<MapRemark> clouds;        ///< on the map's point clouds
   std::optional<PlannedPath> shortest;  ///< nullopt: the goal cannot be reached
   std::string blocked;                  ///< if the goal cannot be reached: the obstruction, as text
   std::optional<PlannedPath> weighted;  ///< with the regions' λ; nullopt: unreachable, or λ has no effect

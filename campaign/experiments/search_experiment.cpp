@@ -123,7 +123,7 @@ SearchOutcome run_search_case(const SearchCase& wanted, const std::vector<std::s
   const Scenario& scenario = outcome.scenario;
   PlannerConfig config = read_planner_config(document.root().section("planner"), scenario.semantics);
   config.optimization.method = OptimizationMethod::SearchOnly;
-  const VoxelMap map = load_map(scenario, read_mapper_config(document.root().section("mapper")), nullptr);
+  const VoxelMap map = load_map(scenario, read_mapper_config(document.root().section("mapper")), nullptr).map;
   TrackSet tracks = declare_motions(world_of(scenario), kStart, kStart, kStart + kPromised);
   if (tracks.tracks.size() != 1) throw ConfigError(scenario.file + ": the experiment takes one obstacle");
   outcome.obstacle = tracks.tracks.front();

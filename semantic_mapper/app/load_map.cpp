@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -50,23 +51,49 @@ bool is_kept(VoxelLabel label, bool semantics) {
   return semantics || (label != VoxelLabel::Attractive && label != VoxelLabel::Repulsive);
 }
 
-CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const MapperConfig& config,
-                      const char* environment) {
-  const fs::path file = find_file(source, scenario, environment);
-  const std::vector<std::uint8_t> bytes = read_bytes(file, source);
-  auto points = source.format == CloudFormat::Las ? parse_las(bytes, file.string(), source.frame)
-                                                  : parse_ply(bytes, file.string(), source.frame);
-  if (!points) throw source.section.error("file", points.error().message);
-  CloudLayer layer;
-  layer.points = std::move(*points);
-  // Groups come first, so that a class that is named itself has priority.
+/// Sets the meanings of the classes that are named. A class named itself overrules its group.
+void set_meanings(const std::vector<std::pair<std::string, VoxelLabel>>& named, ClassMeanings& classes) {
   for (const bool groups : {true, false}) {
-    for (const auto& [name, label] : config.classes) {
-      if (is_class_group(name) != groups || !is_kept(label, scenario.semantics.enabled)) continue;
-      for (const std::uint8_t number : class_numbers(name))
-        layer.classes[number] = ClassMeaning{class_name(number), label};
+    for (const auto& [name, label] : named) {
+      if (is_class_group(name) != groups) continue;
+      for (const std::uint8_t number : class_numbers(name)) classes[number] = ClassMeaning{class_name(number), label};
     }
   }
+}
+
+/// Classes 0 and 1 of LAS are "never classified" and "unclassified".
+bool is_unlabelled(const CloudSource& source, const CloudFile& cloud) {
+  if (source.format == CloudFormat::Ply) return !cloud.has_labels;
+  return std::all_of(cloud.points.begin(), cloud.points.end(),
+                     [](const LabelledPoint& point) { return point.class_number <= 1; });
+}
+
+ClassMeanings meanings_of(const CloudSource& source, const CloudFile& cloud, const MapperConfig& config) {
+  ClassMeanings classes;
+  set_meanings(config.classes, classes);
+  set_meanings(source.classes, classes);
+  if (!is_unlabelled(source, cloud)) return classes;
+  for (const std::size_t number : {0U, 1U}) {
+    if (!classes[number]) classes[number] = ClassMeaning{"unlabelled", VoxelLabel::Occupied};
+  }
+  return classes;
+}
+
+CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const MapperConfig& config,
+                      const char* environment, std::vector<MapRemark>& remarks) {
+  const fs::path file = find_file(source, scenario, environment);
+  const std::vector<std::uint8_t> bytes = read_bytes(file, source);
+  auto cloud = source.format == CloudFormat::Las ? parse_las(bytes, file.string(), source.frame)
+                                                 : parse_ply(bytes, file.string(), source.frame, source.label);
+  if (!cloud) throw source.section.error("file", cloud.error().message);
+  CloudLayer layer;
+  layer.classes = meanings_of(source, *cloud, config);
+  const auto said = report_cloud(source, *cloud, layer.classes, config, scenario.uav.flight_box);
+  remarks.insert(remarks.end(), said.begin(), said.end());
+  for (auto& meaning : layer.classes) {
+    if (meaning && !is_kept(meaning->label, scenario.semantics.enabled)) meaning.reset();
+  }
+  layer.points = std::move(cloud->points);
   for (const std::string& name : source.fill_below) {
     for (const std::uint8_t number : class_numbers(name)) layer.fill_below[number] = true;
   }
@@ -77,8 +104,9 @@ CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const
 
 }  // namespace
 
-VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment) {
+LoadedMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment) {
   MapSources sources;
+  LoadedMap loaded;
   for (const auto& [name, word] : scenario.semantics.classes) {
     sources.region_classes.emplace_back(name, *named<VoxelLabel>(word));
   }
@@ -93,7 +121,7 @@ VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const ch
       sources.obstacles.push_back(box_around(obstacle.centre, obstacle.half_extents));
   }
   for (const CloudSource& source : config.sources)
-    sources.clouds.push_back(load_cloud(source, scenario, config, environment));
+    sources.clouds.push_back(load_cloud(source, scenario, config, environment, loaded.remarks));
 
   MapBuildOptions options;
   options.resolution = config.resolution;
@@ -101,7 +129,8 @@ VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const ch
   options.include = scenario.uav.flight_box;
   options.somewhere = scenario.uav.start;
   options.background = config.background;
-  return value_or_throw(build_map(sources, options), scenario.file + ": mapper: ");
+  loaded.map = value_or_throw(build_map(sources, options), scenario.file + ": mapper: ");
+  return loaded;
 }
 
 }  // namespace tern

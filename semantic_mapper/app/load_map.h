@@ -3,17 +3,27 @@
 
 #include "core/world/scenario.h"
 #include "core/world/voxel_map.h"
+#include "semantic_mapper/app/cloud_report.h"
 #include "semantic_mapper/app/mapper_config.h"
 
 namespace tern {
 
+struct LoadedMap {
+  VoxelMap map;
+  std::vector<MapRemark> remarks;  ///< on each point cloud, in the order of the sources
+};
+
 /// Returns the map of the scenario's regions, the configured point clouds and, if configured, its static obstacles.
 /// With `semantics.enabled: false` only occupied voxels remain. Relative file names are searched in the scenario's
 /// folder, then in data_folder().
+///
+/// A cloud without labels is geometry: all its points are occupied, of class "unlabelled". These are PLY files without
+/// a class property, and LAS files whose points are all of class 0 or 1. A meaning that is configured for these classes
+/// has priority.
 /// @param environment  value of TERN_DATA; may be null
-/// @throws ConfigError with key and file, if a file is missing, unreadable or refused by its reader, or if the map
-///   would be too large
-VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment);
+/// @throws ConfigError with key and file, if a file is missing, unreadable, refused by its reader or without effect
+///   (report_cloud()), or if the map would be too large
+LoadedMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment);
 
 /// The largest point cloud file, bytes.
 inline constexpr std::uintmax_t kMaxCloudBytes = 4'000'000'000;

@@ -1,5 +1,7 @@
 #include "semantic_mapper/app/mapper_config.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "core/world/names.h"
@@ -17,22 +19,43 @@ const std::vector<std::pair<std::string, std::string>> kDefaultClasses{
     {"ground", "occupied"}, {"building", "occupied"},     {"bridge_deck", "occupied"}, {"tower", "occupied"},
     {"wire", "occupied"},   {"vegetation", "attractive"}, {"water", "repulsive"}};
 
-std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection classes, bool is_given) {
-  std::vector<std::pair<std::string, VoxelLabel>> result;
-  const auto read = [&](const std::string& name, const std::string& fallback) {
-    if (class_numbers(name).empty())
-      throw classes.error(name, "is not a class or group of classes (see semantic_mapper/README.md)");
-    result.emplace_back(name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "label of such points")));
-  };
-  if (!is_given) {
-    for (const auto& [name, label] : kDefaultClasses) read(name, label);
-  } else {
-    for (const std::string& name : classes.keys()) read(name, "");
-  }
+using NamedLabels = std::vector<std::pair<std::string, VoxelLabel>>;
+
+NamedLabels::value_type read_class(ConfigSection& classes, const std::string& name, const std::string& fallback) {
+  if (class_numbers(name).empty()) throw classes.error(name, "is not a class, a group of classes or a number from 0 to 255");
+  return {name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "label of such points"))};
+}
+
+NamedLabels read_given_classes(ConfigSection classes) {
+  NamedLabels result;
+  for (const std::string& name : classes.keys()) result.push_back(read_class(classes, name, ""));
   return result;
 }
 
-/// Returns the words of a list such as "building, tower".
+NamedLabels read_classes(ConfigSection classes, bool is_given) {
+  if (is_given) return read_given_classes(std::move(classes));
+  NamedLabels result;
+  for (const auto& [name, label] : kDefaultClasses) result.push_back(read_class(classes, name, label));
+  return result;
+}
+
+/// By the file's ending, if the format is not given.
+CloudFormat read_format(ConfigSection& section, const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension();
+  const bool is_ply = ending == ".ply" || ending == ".PLY";
+  const bool is_given = section.has("format");
+  const std::string format =
+      section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}, "by the name, if not given");
+  const bool is_known = is_ply || ending == ".las" || ending == ".LAS" || ending == ".laz" || ending == ".LAZ";
+  if (!is_given && !is_known) {
+    throw section.error("file", fmt::format("{}: files named *{} are not read; LAS (*.las) and PLY (*.ply) are. "
+                                            "`format` says which of them it is, if its name does not",
+                                            file, ending.empty() ? " without an ending" : ending));
+  }
+  return format == "ply" ? CloudFormat::Ply : CloudFormat::Las;
+}
+
+/// "building, tower" as its words.
 std::vector<std::string> read_class_list(ConfigSection& section, const char* key) {
   std::vector<std::string> names;
   std::string word;
@@ -55,11 +78,9 @@ CloudSource read_source(ConfigSection section) {
   source.file =
       section.required_text("file", "path: absolute, beside the scenario, or in `TERN_DATA` (else `../shared/data`)");
   if (source.file.empty()) throw section.error("file", "must name a file");
-  const bool is_ply = std::filesystem::path(source.file).extension() == ".ply";
-  source.format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"},
-                                 "of the file; the default follows from its name") == "ply"
-                      ? CloudFormat::Ply
-                      : CloudFormat::Las;
+  source.format = read_format(section, source.file);
+  source.label = section.text("label", "", "the PLY property that holds the class; without it, the usual names");
+  source.classes = read_given_classes(section.section("classes"));
   source.frame.origin = section.vec3("origin", source.frame.origin, kFileCoordinate,
                                      "subtracted from the file's coordinates, in its units");
   source.frame.metres_per_unit = section.number("metres_per_unit", source.frame.metres_per_unit, Range::positive(1e6),
@@ -71,6 +92,9 @@ CloudSource read_source(ConfigSection section) {
                      "a point also marks voxels whose centre is this near, m; closes gaps of sparse scans");
   source.fill_below = read_class_list(section, "fill_below");
   section.finish();
+  if (!source.label.empty() && source.format != CloudFormat::Ply) {
+    throw section.error("label", "names a property, which only PLY files have");
+  }
   return source;
 }
 

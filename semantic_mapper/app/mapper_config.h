@@ -23,7 +23,9 @@ struct CloudSource {
   int min_points = 1;
   double point_radius = 0.0;            ///< m
   std::vector<std::string> fill_below;  ///< class names
-  ConfigSection section;                ///< the section, for errors that are found when the file is opened
+  std::string label;                    ///< the PLY property that is the class; "": by the usual names
+  std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< class or group name → label, before the map's own
+  ConfigSection section;  ///< the section, for errors that are found when the file is opened
 };
 
 /// The configuration of tern-mapper.

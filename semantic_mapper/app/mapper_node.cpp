@@ -51,7 +51,11 @@ void MapperNode::step(UTime now) {
 }
 
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
-  const VoxelMap map = load_map(context.scenario, read_mapper_config(context.section), std::getenv("TERN_DATA"));
+  const LoadedMap loaded = load_map(context.scenario, read_mapper_config(context.section), std::getenv("TERN_DATA"));
+  for (const MapRemark& remark : loaded.remarks) {
+    spdlog::log(remark.is_warning ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
+  }
+  const VoxelMap& map = loaded.map;
   const auto count = count_labels(map);
   spdlog::info("map {:016x}: {} × {} × {} voxels of {} m: {} occupied, {} attractive, {} repulsive, {} unknown",
                map.version, map.grid.size.x(), map.grid.size.y(), map.grid.size.z(), map.grid.resolution, count[2],

@@ -56,10 +56,10 @@ std::vector<std::uint8_t> class_numbers(std::string_view name) {
   for (const Group& group : kGroups) {
     if (name == group.name) return {group.members.begin(), group.members.begin() + group.size};
   }
-  if (!name.starts_with(kNumbered)) return {};
+  if (name.starts_with(kNumbered)) name.remove_prefix(kNumbered.size());
   const char* end = name.data() + name.size();
   int number = -1;
-  const auto [stop, error] = std::from_chars(name.data() + kNumbered.size(), end, number);
+  const auto [stop, error] = std::from_chars(name.data(), end, number);
   if (error != std::errc() || stop != end || number < 0 || number > 255) return {};
   return {static_cast<std::uint8_t>(number)};
 }

@@ -12,7 +12,8 @@ namespace tern {
 std::string class_name(std::uint8_t number);
 
 /// Returns the class numbers of a configured name; empty if there is no such name. A name is a standard name,
-/// `class_<number>`, or a group: `vegetation` (3–5), `wire` (13, 14, 16), `noise` (7, 18), `road` (11).
+/// `class_<number>` or the number alone, or a group: `vegetation` (3–5), `wire` (13, 14, 16), `noise` (7, 18), `road`
+/// (11).
 std::vector<std::uint8_t> class_numbers(std::string_view name);
 
 /// True if the name is a group. A standard name in the same table has priority over a group.

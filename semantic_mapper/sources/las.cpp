@@ -44,7 +44,8 @@ Result<std::uint64_t> read_count(std::span<const std::uint8_t> bytes, const std:
   if (bytes.size() < kHeaderSize14) {
     return bad_file(file, bytes.size(), fmt::format("the file ends within the header of {} bytes", kHeaderSize14));
   }
-  return read_number<std::uint64_t>(bytes, kCount14At);
+  const auto count = read_number<std::uint64_t>(bytes, kCount14At);
+  return count == 0 ? legacy : count;  // some writers of 1.4 fill in the legacy count alone
 }
 
 Result<LasHeader> read_header(std::span<const std::uint8_t> bytes, const std::string& file) {
@@ -92,11 +93,11 @@ Result<LasHeader> read_header(std::span<const std::uint8_t> bytes, const std::st
 
 }  // namespace
 
-Result<PointCloud> parse_las(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame) {
+Result<CloudFile> parse_las(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame) {
   const auto header = read_header(bytes, file);
   if (!header) return tl::unexpected(header.error());
-  PointCloud cloud;
-  cloud.reserve(header->count);
+  CloudFile cloud;
+  cloud.points.reserve(header->count);
   for (std::size_t i = 0; i < header->count; ++i) {
     const std::size_t at = header->data_offset + i * header->record_length;
     const bool withheld = header->wide_class ? (bytes[at + 15] & 0x04) != 0 : (bytes[at + 15] & 0x80) != 0;
@@ -104,14 +105,7 @@ Result<PointCloud> parse_las(std::span<const std::uint8_t> bytes, const std::str
     const Vec3 raw(read_number<std::int32_t>(bytes, at), read_number<std::int32_t>(bytes, at + 4),
                    read_number<std::int32_t>(bytes, at + 8));
     const Vec3 p_file = raw.cwiseProduct(header->scale) + header->offset;
-    const auto p = frame.to_world(p_file);
-    if (!p) {
-      return bad_file(file, at,
-                      fmt::format("point {} at ({:g}, {:g}, {:g}) is too far from the origin that was given", i,
-                                  p_file.x(), p_file.y(), p_file.z()));
-    }
-    const auto class_number = static_cast<std::uint8_t>(header->wide_class ? bytes[at + 16] : bytes[at + 15] & 0x1f);
-    cloud.push_back({*p, class_number});
+    cloud.add(p_file, frame, static_cast<double>(header->wide_class ? bytes[at + 16] : bytes[at + 15] & 0x1f));
   }
   return cloud;
 }

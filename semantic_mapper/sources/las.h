@@ -12,14 +12,15 @@ namespace tern {
 /// Returns the points of an uncompressed LAS file with point data record format 0–10. O(points).
 ///
 /// Positions are computed by the header's scale and offset, then by `frame`. The class is in the low five bits
-/// (formats 0–5) or in the whole byte (6–10). Withheld points are left out.
+/// (formats 0–5) or in the whole byte (6–10). Withheld points are left out. Points that
+/// cannot be used are left out and counted (CloudFile). If the 64-bit count of version 1.4 is 0, the legacy count
+/// holds.
 ///
 /// Files may be hostile: all sizes are checked against the file's size and kMaxCloudPoints before memory is allocated.
 /// An Error names `file`, offset, value and limit. Errors are:
 ///
 /// * another signature or version, LAZ compression, an unknown format;
-/// * records shorter than their format, or points beyond the end of the file;
-/// * coordinates beyond kMaxCoordinate in W.
-Result<PointCloud> parse_las(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame);
+/// * records shorter than their format, or points beyond the end of the file.
+Result<CloudFile> parse_las(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame);
 
 }  // namespace tern

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "semantic_mapper/sources/byte_reader.h"
@@ -14,33 +15,41 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Assembles vertices from the values of their properties.
+/// Distance of a float32 to the next larger one.
+double spacing_of(double value) {
+  const auto number = static_cast<float>(value);
+  return static_cast<double>(std::nextafter(number, std::numeric_limits<float>::infinity())) - value;
+}
+
+/// Puts vertices together from their properties' values.
 class Vertices {
  public:
-  Vertices(const PlyHeader& header, const std::string& file, const PointFrame& frame)
-      : header_(header), file_(file), frame_(frame) {}
+  Vertices(const PlyHeader& header, const PointFrame& frame) : header_(header), frame_(frame) {
+    cloud_.has_labels = header.class_number != PlyHeader::kNone;
+    cloud_.properties = header.names;
+    cloud_.points.reserve(header.count);
+  }
 
-  /// @param at  the vertex's offset, for the error
-  Result<LabelledPoint> point(const std::vector<double>& values, std::size_t at) const {
+  void add(const std::vector<double>& values) {
     const Vec3 p_file(values[header_.position[0]], values[header_.position[1]], values[header_.position[2]]);
-    const auto p = frame_.to_world(p_file);
-    if (!p) {
-      return bad_file(file_, at,
-                      fmt::format("a vertex at ({:g}, {:g}, {:g}) is too far from the origin that was given",
-                                  p_file.x(), p_file.y(), p_file.z()));
+    const std::size_t before = cloud_.points.size();
+    cloud_.add(p_file, frame_, cloud_.has_labels ? values[header_.class_number] : 0.0);
+    if (cloud_.points.size() == before) return;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool is_float = header_.properties[header_.position[axis]] == PlyType::Float32;
+      if (is_float) largest_float_ = std::max(largest_float_, std::abs(p_file[static_cast<int>(axis)]));
     }
-    if (header_.class_number == PlyHeader::kNone) return LabelledPoint{*p, 0};
-    const double number = values[header_.class_number];
-    if (!(number >= 0.0 && number <= 255.0) || number != std::floor(number)) {
-      return bad_file(file_, at, fmt::format("class {:g} is not an integer in [0, 255]", number));
-    }
-    return LabelledPoint{*p, static_cast<std::uint8_t>(number)};
+  }
+  CloudFile finish() {
+    if (largest_float_ > 0.0) cloud_.spacing = spacing_of(largest_float_) * frame_.metres_per_unit;
+    return std::move(cloud_);
   }
 
  private:
   const PlyHeader& header_;
-  const std::string& file_;
   const PointFrame& frame_;
+  CloudFile cloud_;
+  double largest_float_ = 0.0;  // file's units
 };
 
 double read_value(Bytes bytes, std::size_t at, PlyType type, std::endian order) {
@@ -60,29 +69,24 @@ double read_value(Bytes bytes, std::size_t at, PlyType type, std::endian order) 
 /// Returns the points of the vertices. `next` reads the value at an offset and advances the offset; nullopt at the
 /// end.
 template <class Next>
-Result<PointCloud> read_points(const std::string& file, const PlyHeader& header, const Vertices& vertices,
-                               const Next& next) {
-  PointCloud cloud;
-  cloud.reserve(header.count);
+Result<CloudFile> read_points(const std::string& file, const PlyHeader& header, const PointFrame& frame,
+                              const Next& next) {
+  Vertices vertices(header, frame);
   std::vector<double> values;
   std::size_t at = header.data_offset;
   for (std::size_t i = 0; i < header.count; ++i) {
-    const std::size_t begin = at;
     values.clear();
     for (const PlyType type : header.properties) {
       const std::optional<double> value = next(at, type);
       if (!value) return bad_file(file, at, fmt::format("no number where vertex {} needs one", i));
       values.push_back(*value);
     }
-    const auto point = vertices.point(values, begin);
-    if (!point) return tl::unexpected(point.error());
-    cloud.push_back(*point);
+    vertices.add(values);
   }
-  return cloud;
+  return vertices.finish();
 }
 
-Result<PointCloud> read_binary(Bytes bytes, const std::string& file, const PlyHeader& header,
-                               const Vertices& vertices) {
+Result<CloudFile> read_binary(Bytes bytes, const std::string& file, const PlyHeader& header, const PointFrame& frame) {
   std::size_t stride = 0;
   for (const PlyType type : header.properties) stride += size_of(type);
   const std::size_t fit = stride == 0 ? 0 : (bytes.size() - header.data_offset) / stride;
@@ -91,7 +95,7 @@ Result<PointCloud> read_binary(Bytes bytes, const std::string& file, const PlyHe
                     fmt::format("{} vertices, but the file ends after {}", header.count, fit));
   }
   const std::endian order = header.format == PlyFormat::BigEndian ? std::endian::big : std::endian::little;
-  return read_points(file, header, vertices, [&](std::size_t& at, PlyType type) -> std::optional<double> {
+  return read_points(file, header, frame, [&](std::size_t& at, PlyType type) -> std::optional<double> {
     return read_value(bytes, std::exchange(at, at + size_of(type)), type, order);
   });
 }
@@ -109,7 +113,7 @@ std::optional<double> next_number(std::string_view text, std::size_t& at) {
   return value;
 }
 
-Result<PointCloud> read_ascii(Bytes bytes, const std::string& file, const PlyHeader& header, const Vertices& vertices) {
+Result<CloudFile> read_ascii(Bytes bytes, const std::string& file, const PlyHeader& header, const PointFrame& frame) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   // A value takes at least two characters, so the reserved memory is bounded by the file's size.
   const std::size_t most = (bytes.size() - header.data_offset + 1) / (2 * header.properties.size());
@@ -117,17 +121,17 @@ Result<PointCloud> read_ascii(Bytes bytes, const std::string& file, const PlyHea
     return bad_file(file, header.data_offset,
                     fmt::format("{} vertices, but the file has room for {}", header.count, most));
   }
-  return read_points(file, header, vertices, [&](std::size_t& at, PlyType) { return next_number(text, at); });
+  return read_points(file, header, frame, [&](std::size_t& at, PlyType) { return next_number(text, at); });
 }
 
 }  // namespace
 
-Result<PointCloud> parse_ply(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame) {
-  const auto header = parse_ply_header(bytes, file);
+Result<CloudFile> parse_ply(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame,
+                            const std::string& label) {
+  const auto header = parse_ply_header(bytes, file, label);
   if (!header) return tl::unexpected(header.error());
-  const Vertices vertices(*header, file, frame);
-  if (header->format == PlyFormat::Ascii) return read_ascii(bytes, file, *header, vertices);
-  return read_binary(bytes, file, *header, vertices);
+  if (header->format == PlyFormat::Ascii) return read_ascii(bytes, file, *header, frame);
+  return read_binary(bytes, file, *header, frame);
 }
 
 }  // namespace tern

@@ -9,19 +9,22 @@
 
 namespace tern {
 
-/// Returns the vertices of an ASCII or a little-endian or big-endian binary PLY file. O(bytes).
+/// Reads the vertices of an ASCII, little-endian or big-endian binary PLY file: x, y, z and the class of each.
 ///
-/// The properties x, y, z and the class are read. The class is the first of the properties `label`, `class`,
-/// `classification`, `class_id`, `semantic`, `scalar_Label`, `scalar_Classification`; without any of them it is 0.
-/// Other scalar properties, and elements after the vertices, are ignored.
+/// The class is the property `label`. If `label` is empty, it is the first of these that the file has: `label`,
+/// `class`, `classification`, `class_id`, `semantic`, `scalar_Label`, `scalar_Classification`. Case does not matter. A
+/// file without a class property has `has_labels` false. Other scalar properties and the elements after the vertices
+/// are ignored. Vertices that cannot be used are left out and counted (CloudFile).
 ///
-/// An Error names `file`, offset, value and limit. Errors are:
+/// Errors name `file`, offset, value and limit. It fails for:
+///  - a file that is no PLY, or whose header is longer than kMaxPlyHeader bytes;
+///  - elements before the vertices, list properties in a vertex, unknown types, properties given twice;
+///  - a property `label` that the file does not have: the error lists the properties;
+///  - more vertices than kMaxCloudPoints or than the file has, or text that is no number.
 ///
-/// * another format, or a header of more than kMaxPlyHeader bytes;
-/// * elements before the vertices, list properties in a vertex, unknown types, a property given twice;
-/// * more vertices than kMaxCloudPoints, or than the file holds;
-/// * text that is no number, a class outside [0, 255] or with a fraction, coordinates beyond kMaxCoordinate in W.
-Result<PointCloud> parse_ply(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame);
+/// O(bytes).
+Result<CloudFile> parse_ply(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame,
+                            const std::string& label = "");
 
 inline constexpr std::size_t kMaxPlyHeader = 65'536;
 inline constexpr std::size_t kMaxPlyProperties = 256;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <optional>
 #include <string_view>
@@ -43,9 +44,18 @@ std::optional<PlyType> type_of(std::string_view word) {
   return std::nullopt;
 }
 
+/// Equal but for the case of letters.
+bool is_named(std::string_view name, std::string_view wanted) {
+  return std::equal(name.begin(), name.end(), wanted.begin(), wanted.end(), [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  });
+}
+
 /// Parses the header line by line. A call returns an error text, or an empty text if the line is accepted.
 class HeaderLines {
  public:
+  explicit HeaderLines(std::string_view label) : label_(label) {}
+
   PlyHeader header;
   bool ended = false;
 
@@ -97,10 +107,10 @@ class HeaderLines {
     const auto type = type_of(words[1]);
     if (!type) return fmt::format("unknown type {}", words[1].substr(0, 40));
     if (header.properties.size() == kMaxPlyProperties) return fmt::format("more than {} properties", kMaxPlyProperties);
-    if (std::find(names_.begin(), names_.end(), words[2]) != names_.end()) {
+    if (std::find(header.names.begin(), header.names.end(), words[2]) != header.names.end()) {
       return fmt::format("property {} given twice", words[2].substr(0, 40));
     }
-    names_.push_back(words[2]);
+    header.names.emplace_back(words[2]);
     header.properties.push_back(*type);
     return "";
   }
@@ -109,25 +119,34 @@ class HeaderLines {
     ended = true;
     if (!has_format_) return "no format line";
     if (!has_vertices_) return "no element vertex";
-    const auto find = [&](std::string_view name) {
-      const auto at = std::find(names_.begin(), names_.end(), name);
-      return at == names_.end() ? PlyHeader::kNone : idx(at - names_.begin());
+    const auto find = [&](std::string_view wanted) {
+      auto at = std::find(header.names.begin(), header.names.end(), wanted);
+      if (at == header.names.end()) {
+        at = std::find_if(header.names.begin(), header.names.end(),
+                          [&](const std::string& name) { return is_named(name, wanted); });
+      }
+      return at == header.names.end() ? PlyHeader::kNone : idx(at - header.names.begin());
     };
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
       header.position[i] = find(kAxes[i]);
       if (header.position[i] == PlyHeader::kNone) return fmt::format("vertices have no property {}", kAxes[i]);
     }
-    for (std::size_t i = 0; i < kClassNames.size() && header.class_number == PlyHeader::kNone; ++i) {
-      header.class_number = find(kClassNames[i]);
+    if (label_.empty()) {
+      for (std::size_t i = 0; i < kClassNames.size() && header.class_number == PlyHeader::kNone; ++i) {
+        header.class_number = find(kClassNames[i]);
+      }
+      return "";
     }
-    return "";
+    header.class_number = find(label_);
+    if (header.class_number != PlyHeader::kNone) return "";
+    return fmt::format("no property {} for the class among {}", label_.substr(0, 40), listed(header.names));
   }
 
   bool has_format_ = false;
   bool has_vertices_ = false;
   bool in_vertices_ = false;
-  std::vector<std::string_view> names_;
+  std::string_view label_;
 };
 
 }  // namespace
@@ -137,9 +156,10 @@ std::size_t size_of(PlyType type) {
   return kSizes[idx(type)];
 }
 
-Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file) {
+Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file,
+                                   const std::string& label) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), kMaxPlyHeader));
-  HeaderLines lines;
+  HeaderLines lines(label);
   std::size_t at = 0;
   while (!lines.ended) {
     const std::size_t end = text.find('\n', at);

@@ -27,10 +27,12 @@ struct PlyHeader {
   std::vector<PlyType> properties;                  ///< properties of a vertex, in the file's order
   std::size_t position[3] = {kNone, kNone, kNone};  ///< indices of x, y, z; all are set
   std::size_t class_number = kNone;                 ///< index of the class; kNone: there is none
+  std::vector<std::string> names;                   ///< names of the properties, in the file's order
   std::size_t data_offset = 0;                      ///< offset of the first vertex, bytes
 };
 
 /// Reads the header of a PLY file. Errors are those of parse_ply() (ply.h).
-Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
+Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file,
+                                   const std::string& label);
 
 }  // namespace tern

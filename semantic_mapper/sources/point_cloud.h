@@ -28,8 +28,25 @@ struct PointFrame {
   [[nodiscard]] std::optional<Vec3> to_world(const Vec3& p_file) const;
 };
 
+/// A file's points, and how many it holds that cannot be used.
+struct CloudFile {
+  PointCloud points;
+  std::int64_t not_finite = 0;          ///< points with a coordinate that is NaN or infinite, left out
+  std::int64_t too_far = 0;             ///< points beyond kMaxCoordinate in W, left out
+  std::int64_t not_a_class = 0;         ///< points whose label is not an integer in [0, 255], left out
+  bool has_labels = true;               ///< false: the file has no property for the class, and every class is 0
+  std::vector<std::string> properties;  ///< names of a vertex's properties in file order; empty for LAS
+  double spacing = 0.0;  ///< distance of neighbouring numbers at the largest float32 coordinate, m; 0 without float32
+
+  /// Adds a point or counts why it is left out. @param label  the class number as the file has it
+  void add(const Vec3& p_file, const PointFrame& frame, double label);
+};
+
 /// The largest number of points of a file; a point takes 32 bytes of memory.
 inline constexpr std::int64_t kMaxCloudPoints = 50'000'000;
+
+/// Returns "x, y, z, red" of these names; beyond 200 characters the rest is cut.
+std::string listed(const std::vector<std::string>& names);
 
 /// Returns an Error such as "file, offset 107: number of points 99 is more than the limit 4".
 tl::unexpected<Error> bad_file(const std::string& file, std::size_t offset, const std::string& what);

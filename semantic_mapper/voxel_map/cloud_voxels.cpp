@@ -70,10 +70,11 @@ Tally count(const CloudLayer& cloud, std::vector<Mark>::const_iterator begin, st
 
 }  // namespace
 
-void paint_cloud(const CloudLayer& cloud, VoxelPainter& painter) {
+bool paint_cloud(const CloudLayer& cloud, VoxelPainter& painter) {
   const VoxelGrid grid = painter.grid();
   const std::int64_t layer = static_cast<std::int64_t>(grid.size.x()) * grid.size.y();
   const std::vector<Mark> marks = marks_of(cloud, grid);
+  bool has_painted = marks.empty();
   for (auto begin = marks.begin(); begin != marks.end();) {
     const std::int64_t voxel = begin->voxel;
     const auto end = std::find_if(begin, marks.end(), [&](const Mark& m) { return m.voxel != voxel; });
@@ -85,8 +86,10 @@ void paint_cloud(const CloudLayer& cloud, VoxelPainter& painter) {
       const std::uint8_t index = painter.class_index(cloud.classes[number]->name);
       const std::int64_t floor = cloud.fill_below[number] ? voxel % layer : voxel;
       for (std::int64_t v = floor; v <= voxel; v += layer) painter.paint(v, cloud.classes[number]->label, index);
+      has_painted = true;
     }
   }
+  return has_painted;
 }
 
 }  // namespace tern

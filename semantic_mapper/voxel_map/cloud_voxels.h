@@ -14,6 +14,7 @@ namespace tern {
 ///    of equal counts, the one with the lower number.
 /// 3. The column below a voxel of a fill_below class gets the same label, down to the map's floor. The roofs of an
 ///    airborne scan so become solid buildings.
-void paint_cloud(const CloudLayer& cloud, VoxelPainter& painter);
+/// @return false if points mark voxels of the grid, but no voxel has min_points marks of one label
+bool paint_cloud(const CloudLayer& cloud, VoxelPainter& painter);
 
 }  // namespace tern

@@ -104,7 +104,11 @@ Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& opt
     painter.paint_if(obstacle, VoxelLabel::Occupied, painter.class_index("obstacle"),
                      [&](const Box& voxel) { return overlaps(obstacle, voxel); });
   }
-  for (const CloudLayer& cloud : sources.clouds) paint_cloud(cloud, painter);
+  for (std::size_t k = 0; k < sources.clouds.size(); ++k) {
+    if (paint_cloud(sources.clouds[k], painter)) continue;
+    return fail(
+        fmt::format("sources[{}].min_points: no voxel has {} marks of one label", k, sources.clouds[k].min_points));
+  }
   return painter.finish();
 }
 

@@ -21,10 +21,13 @@ struct ClassMeaning {
   VoxelLabel label = VoxelLabel::Unknown;
 };
 
+/// Meanings by class number; nullopt: points of that class are left out.
+using ClassMeanings = std::array<std::optional<ClassMeaning>, 256>;
+
 /// A point cloud, and how its points become voxels.
 struct CloudLayer {
   PointCloud points;
-  std::array<std::optional<ClassMeaning>, 256> classes;  ///< by class number; nullopt: such points are left out.
+  ClassMeanings classes;
   /// By class number; true: the columns below such voxels are filled, down to the map's floor.
   std::array<bool, 256> fill_below{};
   double point_radius = 0.0;  ///< m, ≥ 0: a point marks its voxel and every voxel whose centre is this near
@@ -61,7 +64,8 @@ inline constexpr std::int64_t kMaxRoomyVoxels = 8'000'000;
 /// 3. The grid's corner is a multiple of the resolution, so the voxels do not depend on the extents. Sources are cut
 ///    at the extents.
 ///
-/// @return an Error with extents and limits if the map would have more than kMaxVoxels
+/// @return an Error with extents and limits if the map would have more than kMaxVoxels, or with min_points if a cloud
+///   marks voxels but none often enough
 Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& options);
 
 }  // namespace tern

@@ -50,14 +50,14 @@ FileBytes mutated(FileBytes bytes, Rng& rng) {
   return bytes;
 }
 
-void expect_sane(const Result<PointCloud>& cloud, std::size_t bytes) {
+void expect_sane(const Result<CloudFile>& cloud, std::size_t bytes) {
   if (!cloud) {
     ASSERT_TRUE(cloud.error().message.starts_with("file, offset ")) << cloud.error().message;
     ASSERT_LT(cloud.error().message.size(), 300u);
     return;
   }
-  ASSERT_LE(cloud->size(), bytes);
-  for (const LabelledPoint& point : *cloud) ASSERT_LE(point.position.cwiseAbs().maxCoeff(), kMaxCoordinate);
+  ASSERT_LE(cloud->points.size(), bytes);
+  for (const LabelledPoint& point : cloud->points) ASSERT_LE(point.position.cwiseAbs().maxCoeff(), kMaxCoordinate);
 }
 
 TEST(HostileFiles, MutatedLasGivesAValueOrAnError) {

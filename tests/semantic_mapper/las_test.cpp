@@ -32,10 +32,10 @@ TEST(Las, ReadsEveryVersionAndFormat) {
         spec.extra_bytes = extra;
         const auto cloud = parse_las(las_file(kPoints, spec), "scan.las", {});
         ASSERT_TRUE(cloud) << cloud.error().message;
-        ASSERT_EQ(cloud->size(), kPoints.size());
+        ASSERT_EQ(cloud->points.size(), kPoints.size());
         for (std::size_t i = 0; i < kPoints.size(); ++i) {
-          EXPECT_LT(((*cloud)[i].position - kPoints[i].position).norm(), 1e-9);
-          EXPECT_EQ((*cloud)[i].class_number, kPoints[i].class_number);
+          EXPECT_LT((cloud->points[i].position - kPoints[i].position).norm(), 1e-9);
+          EXPECT_EQ(cloud->points[i].class_number, kPoints[i].class_number);
         }
       }
     }
@@ -50,7 +50,7 @@ TEST(Las, AppliesScaleOffsetOriginAndUnit) {
   const PointFrame frame{Vec3(674521.92, 1206740.08, 627.53), 0.3048};
   const auto cloud = parse_las(las_file(points, spec), "scan.las", frame);
   ASSERT_TRUE(cloud);
-  EXPECT_LT(((*cloud)[0].position - Vec3(3.048, 6.096, 0.9144)).norm(), 1e-8);
+  EXPECT_LT((cloud->points[0].position - Vec3(3.048, 6.096, 0.9144)).norm(), 1e-8);
 }
 
 TEST(Las, MasksFlagsAndLeavesOutWithheldPoints) {
@@ -60,8 +60,8 @@ TEST(Las, MasksFlagsAndLeavesOutWithheldPoints) {
   bytes[227 + 34 + 15] = 6 | 0x80;  // withheld
   const auto cloud = parse_las(bytes, "scan.las", {});
   ASSERT_TRUE(cloud);
-  ASSERT_EQ(cloud->size(), 2u);
-  EXPECT_EQ((*cloud)[0].class_number, 2);
+  ASSERT_EQ(cloud->points.size(), 2u);
+  EXPECT_EQ(cloud->points[0].class_number, 2);
 }
 
 TEST(Las, NamesFileOffsetValueAndLimitOfWhatItRefuses) {
@@ -84,8 +84,26 @@ TEST(Las, NamesFileOffsetValueAndLimitOfWhatItRefuses) {
   EXPECT_THAT(with([](FileBytes& b) { put<std::uint32_t>(b, 107, 0xffffffff); }),
               HasSubstr("4294967295 points (limit 50000000)"));
   EXPECT_THAT(with([](FileBytes& b) { put<std::uint32_t>(b, 96, 9999); }), HasSubstr("points begin at 9999"));
-  EXPECT_THAT(with([](FileBytes& b) { put(b, 131, std::nan("")); }), HasSubstr("offset 227: point 0 at (nan"));
-  EXPECT_THAT(with([](FileBytes& b) { put(b, 155, 1e12); }), HasSubstr("too far from the origin"));
+}
+
+TEST(Las, LeavesOutAndCountsPointsThatCannotBeUsed) {
+  FileBytes bytes = las_file(kPoints, {});
+  put(bytes, 131, std::nan(""));
+  EXPECT_EQ(parse_las(bytes, "scan.las", {})->not_finite, 3);
+  bytes = las_file(kPoints, {});
+  put(bytes, 155, 1e12);
+  EXPECT_EQ(parse_las(bytes, "scan.las", {})->too_far, 3);
+  EXPECT_TRUE(parse_las(bytes, "scan.las", {})->points.empty());
+}
+
+TEST(Las, TakesTheLegacyCountWhereTheWideOneIsZero) {
+  LasSpec spec;
+  spec.minor = 4;
+  FileBytes bytes = las_file(kPoints, spec);
+  put<std::uint64_t>(bytes, 247, 0);
+  const auto cloud = parse_las(bytes, "scan.las", {});
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_EQ(cloud->points.size(), kPoints.size());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 TEST(LidarTown, TheHouseStandsInTheWayAndCanBePassed) {
   auto document = ConfigDocument::load(TERN_SCENARIO_FOLDER "/lidar_town.yaml", {});
   const Scenario scenario = read_scenario(document);
-  const VoxelMap map = load_map(scenario, read_mapper_config(document.root().section("mapper")), TERN_DATA_FOLDER);
+  const VoxelMap map = load_map(scenario, read_mapper_config(document.root().section("mapper")), TERN_DATA_FOLDER).map;
   EXPECT_GT(std::count(map.labels.begin(), map.labels.end(), VoxelLabel::Occupied), 100'000);
 
   std::vector<Box> boxes = cover_with_boxes(map, false);

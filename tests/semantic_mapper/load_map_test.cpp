@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -39,6 +40,9 @@ class LoadMapTest : public ::testing::Test {
         .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
   }
   [[nodiscard]] VoxelMap load(const std::string& yaml, const std::vector<std::string>& overrides = {}) const {
+    return load_all(yaml, overrides).map;
+  }
+  [[nodiscard]] LoadedMap load_all(const std::string& yaml, const std::vector<std::string>& overrides = {}) const {
     auto document = ConfigDocument::parse(yaml, (folder_ / "s.yaml").string(), overrides);
     const Scenario scenario = read_scenario(document);
     return load_map(scenario, read_mapper_config(document.root().section("mapper")), (folder_ / "data").c_str());
@@ -117,6 +121,85 @@ TEST_F(LoadMapTest, NamesTheFileThatIsMissingOrBroken) {
               HasSubstr("bad.las, offset 4: the file ends within the header"));
   EXPECT_THAT(error_of("mapper: {resolution_m: 0.01, extents: {min: [0, 0, 0], max: [100, 100, 100]}}"),
               HasSubstr("limit 200000000"));
+}
+
+/// A wall across the way at x = 10 m: 61 × 31 points, 0.1 m apart.
+PointCloud wall(std::uint8_t class_number, const Vec3& shift = Vec3::Zero()) {
+  PointCloud points;
+  for (int j = 0; j < 61; ++j) {
+    for (int k = 0; k < 31; ++k) points.push_back({Vec3(10.05, 0.1 * j - 3.0, 0.1 * k) + shift, class_number});
+  }
+  return points;
+}
+constexpr const char* kWorld = "uav: {flight_box: {min: [-2, -6, 0], max: [24, 6, 4]}}\n";
+std::string with_source(const std::string& source, const std::string& more = "") {
+  return kWorld + ("mapper: {" + more + "sources: [{" + source + "}]}");
+}
+
+TEST_F(LoadMapTest, ACloudWithoutLabelsIsOccupied) {
+  write("plain.ply", support::ply_file(wall(9), support::PlyKind::Little, "intensity"));
+  EXPECT_GT(count(load(with_source("file: plain.ply")), VoxelLabel::Occupied), 250);
+  for (const std::uint8_t number : {std::uint8_t{0}, std::uint8_t{1}}) {
+    write("plain.las", support::las_file(wall(number), {}));
+    const LoadedMap loaded = load_all(with_source("file: plain.las"));
+    EXPECT_GT(count(loaded.map, VoxelLabel::Occupied), 250);
+    EXPECT_THAT(loaded.remarks.at(0).text, HasSubstr("1891 points, 1891 of them used: unlabelled"));
+    EXPECT_GT(count(load(with_source("file: plain.las"), {"semantics.enabled=false"}), VoxelLabel::Occupied), 250);
+  }
+  EXPECT_EQ(count(load(with_source("file: plain.las", "classes: {class_1: attractive}, ")), VoxelLabel::Occupied), 0);
+}
+
+TEST_F(LoadMapTest, ACloudThatMarksNoVoxelIsRefusedWithWhatItHolds) {
+  write("roads.las", support::las_file(wall(11), {}));
+  EXPECT_THAT(error_of(with_source("file: roads.las")),
+              testing::AllOf(HasSubstr("mapper.sources[0].file: roads.las: 1891 points, but none marks a voxel"),
+                             HasSubstr("classes present: road_surface (11) 1891")));
+  write("zero.ply", support::ply_file(wall(0), support::PlyKind::Ascii));
+  EXPECT_THAT(error_of(with_source("file: zero.ply")),
+              testing::AllOf(HasSubstr("never_classified (0) 1891"), HasSubstr("properties: x, y, z, other, label")));
+  write("far.ply", support::ply_file(wall(6, Vec3(700, 0, 0)), support::PlyKind::Big));
+  EXPECT_THAT(error_of(with_source("file: far.ply")),
+              testing::AllOf(HasSubstr("no point lies in or near uav.flight_box"), HasSubstr("(710.05, -3, 0)")));
+  EXPECT_THAT(error_of(with_source("file: far.ply", "extents: {min: [-2, -6, 0], max: [24, 6, 4]}, ")),
+              HasSubstr("no point lies inside mapper.extents"));
+  write("empty.las", support::las_file({}, {}));
+  EXPECT_THAT(error_of(with_source("file: empty.las")), HasSubstr("0 points, but none marks a voxel"));
+  write("wall.las", support::las_file(wall(6), {}));
+  EXPECT_THAT(error_of(with_source("file: wall.las, min_points: 1000")),
+              HasSubstr("min_points: no voxel has 1000 marks of one label"));
+}
+
+TEST_F(LoadMapTest, ASourceNamesItsClassPropertyAndWhatItsNumbersMean) {
+  write("rue.ply", support::ply_file(wall(4), support::PlyKind::Big, "sem_class"));
+  EXPECT_GT(count(load(with_source("file: rue.ply, label: sem_class, classes: {4: repulsive}")), VoxelLabel::Repulsive),
+            250);
+  EXPECT_GT(count(load(with_source("file: rue.ply, label: sem_class")), VoxelLabel::Attractive), 250) << "vegetation";
+  EXPECT_THAT(error_of(with_source("file: rue.ply, label: label")), HasSubstr("no property label for the class among"));
+  EXPECT_THAT(error_of(with_source("file: rue.ply, classes: {256: occupied}")), HasSubstr("is not a class"));
+  write("wall.las", support::las_file(wall(6), {}));
+  EXPECT_THAT(error_of(with_source("file: wall.las, label: class")), HasSubstr("which only PLY files have"));
+}
+
+TEST_F(LoadMapTest, WarnsOfWhatIsLeftOutAndOfCoordinatesThatAreTooLarge) {
+  PointCloud points = wall(6);
+  for (std::size_t i = 0; i < 38; ++i) points[50 * i].position.x() = std::nan("");
+  write("holes.ply", support::ply_file(points, support::PlyKind::Little));
+  const auto remarks = load_all(with_source("file: holes.ply")).remarks;
+  ASSERT_EQ(remarks.size(), 2u);
+  EXPECT_TRUE(remarks[1].is_warning);
+  EXPECT_THAT(remarks[1].text, HasSubstr("of 1891 points 38 are not finite; they are left out"));
+  // z is a float32 in these files: 5.6e6 is exact to 0.5 m.
+  write("survey.ply", support::ply_file(wall(6, Vec3(0, 0, 5'572'094)), support::PlyKind::Little));
+  const auto survey = load_all(with_source("file: survey.ply, origin: [0, 0, 5572094]")).remarks;
+  ASSERT_EQ(survey.size(), 2u);
+  EXPECT_TRUE(survey[1].is_warning);
+  EXPECT_THAT(survey[1].text, HasSubstr("float32 coordinates are exact to 0.5 m, and voxels have 0.25 m"));
+}
+
+TEST_F(LoadMapTest, AFileOfAnotherFormatIsNamedAsSuch) {
+  EXPECT_THAT(error_of(with_source("file: wall.pcd")),
+              HasSubstr("wall.pcd: files named *.pcd are not read; LAS (*.las)"));
+  EXPECT_THAT(error_of(with_source("file: wall.pcd, format: ply")), HasSubstr("wall.pcd not found"));
 }
 
 }  // namespace

@@ -1,0 +1,129 @@
+#include "semantic_mapper/app/cloud_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/world/message_limits.h"
+#include "core/world/names.h"
+#include "semantic_mapper/sources/class_names.h"
+
+namespace tern {
+namespace {
+
+/// Float32 coordinates are warned of where neighbouring numbers lie farther apart than this share of a voxel: rounding
+/// then moves a point by up to an eighth of a voxel.
+constexpr double kMaxSpacingShare = 0.25;
+constexpr std::size_t kClassesShown = 12;
+
+struct Census {
+  std::array<std::int64_t, 256> of_class{};
+  std::int64_t meant = 0;       ///< points of a class with a meaning
+  std::int64_t in_extents = 0;  ///< of these
+  std::int64_t near_box = 0;    ///< of these
+  Box bounds;                   ///< of all that can be used, W
+};
+
+Census census_of(const CloudFile& cloud, const ClassMeanings& classes, const MapperConfig& config, const Box& near) {
+  Census census;
+  for (const LabelledPoint& point : cloud.points) {
+    ++census.of_class[point.class_number];
+    census.bounds.extend(point.position);
+    if (!classes[point.class_number]) continue;
+    ++census.meant;
+    if (config.extents && !config.extents->contains(point.position)) continue;
+    ++census.in_extents;
+    if (near.contains(point.position)) ++census.near_box;
+  }
+  return census;
+}
+
+/// "ground (2) 1891 occupied, class_31 (31) 3": the classes with the most points first.
+std::string classes_text(const Census& census, const ClassMeanings& classes) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < census.of_class.size(); ++k) {
+    if (census.of_class[k] > 0) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return census.of_class[a] > census.of_class[b]; });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(order.size(), kClassesShown); ++i) {
+    const auto number = static_cast<std::uint8_t>(order[i]);
+    const auto& meaning = classes[number];
+    text += fmt::format("{}{} ({}) {}{}", text.empty() ? "" : ", ", meaning ? meaning->name : class_name(number),
+                        number, census.of_class[number], meaning ? fmt::format(" {}", to_string(meaning->label)) : "");
+  }
+  if (order.size() > kClassesShown) text += fmt::format(" and {} more", order.size() - kClassesShown);
+  return text.empty() ? "none" : text;
+}
+
+std::string left_out_text(const CloudFile& cloud) {
+  std::string text;
+  const auto add = [&](std::int64_t count, const std::string& why) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, why);
+  };
+  add(cloud.not_finite, "are not finite");
+  add(cloud.too_far, fmt::format("lie beyond {:g} m of the world's origin", kMaxCoordinate));
+  add(cloud.not_a_class, "have a label that is no class number (0 to 255)");
+  return text;
+}
+
+std::string box_text(const Box& box) {
+  if (box.isEmpty()) return "nowhere";
+  return fmt::format("from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m", box.min().x(), box.min().y(),
+                     box.min().z(), box.max().x(), box.max().y(), box.max().z());
+}
+
+/// Why no point marks a voxel, and the keys that may help; "" if one does.
+std::string reason_for_nothing(const CloudFile& cloud, const Census& census, const ClassMeanings& classes) {
+  if (census.near_box > 0) return "";
+  if (cloud.points.empty()) {
+    return "no point can be used: check origin, metres_per_unit and label";
+  }
+  if (census.meant == 0) {
+    std::string text = "no point has a class with a meaning: classes present: " + classes_text(census, classes);
+    if (!cloud.properties.empty()) text += fmt::format("; properties: {}", listed(cloud.properties));
+    return text + "; name the class's property by `label`, and what its numbers mean by `classes`";
+  }
+  if (census.in_extents == 0) {
+    return fmt::format("no point lies inside mapper.extents: the cloud reaches {}: check origin and metres_per_unit",
+                       box_text(census.bounds));
+  }
+  return fmt::format("no point lies in or near uav.flight_box: the cloud reaches {}: check origin and metres_per_unit",
+                     box_text(census.bounds));
+}
+
+}  // namespace
+
+std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& cloud, const ClassMeanings& classes,
+                                    const MapperConfig& config, const Box& flight_box) {
+  const Box near = grown(flight_box, Vec3::Constant(source.point_radius + config.resolution));
+  const Census census = census_of(cloud, classes, config, near);
+  const auto total =
+      static_cast<std::int64_t>(cloud.points.size()) + cloud.not_finite + cloud.too_far + cloud.not_a_class;
+  const std::string left_out = left_out_text(cloud);
+  if (const std::string why = reason_for_nothing(cloud, census, classes); !why.empty()) {
+    throw source.section.error("file", fmt::format("{}: {} points{}, but none marks a voxel: {}", source.file, total,
+                                                   left_out.empty() ? "" : fmt::format(" ({})", left_out), why));
+  }
+  std::vector<MapRemark> remarks{{fmt::format("{}: {} points, {} of them used: {}", source.file, total,
+                                              census.in_extents, classes_text(census, classes))}};
+  if (!left_out.empty()) {
+    remarks.push_back({fmt::format("{}: of {} points {}; they are left out", source.file, total, left_out), true});
+  }
+  if (census.in_extents < census.meant) {
+    remarks.push_back({fmt::format("{}: {} of {} points lie outside mapper.extents and are left out", source.file,
+                                   census.meant - census.in_extents, census.meant)});
+  }
+  if (cloud.spacing > kMaxSpacingShare * config.resolution) {
+    remarks.push_back(
+        {fmt::format("{}: its float32 coordinates are exact to {:.2g} m, and voxels have {:g} m: walls may "
+                     "get holes; write the file with double coordinates or near its origin",
+                     source.file, cloud.spacing, config.resolution),
+         true});
+  }
+  return remarks;
+}
+
+}  // namespace tern
