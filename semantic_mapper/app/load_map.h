@@ -21,8 +21,8 @@ struct LoadedMap {
 /// a class property, and LAS files whose points are all of class 0 or 1. A meaning that is configured for these classes
 /// has priority.
 /// @param environment  value of TERN_DATA; may be null
-/// @throws ConfigError with key and file, if a file is missing, unreadable, refused by its reader or without effect
-///   (report_cloud()), or if the map would be too large
+/// @throws ConfigError with key and file: the file is missing, unreadable, refused by its reader, or has no effect
+///   (report_cloud()). Also if the map would be too large.
 LoadedMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment);
 
 /// The largest point cloud file, bytes.
