@@ -64,8 +64,8 @@ inline constexpr std::int64_t kMaxRoomyVoxels = 8'000'000;
 /// 3. The grid's corner is a multiple of the resolution, so the voxels do not depend on the extents. Sources are cut
 ///    at the extents.
 ///
-/// @return an Error with extents and limits if the map would have more than kMaxVoxels, or with min_points if no voxel of
-///   a cloud reaches that number of marks
+/// @return an Error with extents and limits if the map would have more than kMaxVoxels. An Error with min_points if no
+///   voxel of a cloud reaches that number of marks.
 Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& options);
 
 }  // namespace tern
