@@ -70,8 +70,8 @@ TEST(ScenarioFile, EveryScenarioOfTheProjectIsRead) {
   EXPECT_GT(count, 0);
 }
 
-TEST(ScenarioFile, TheReadmesExampleIsRead) {
-  std::ifstream stream(std::filesystem::path(TERN_SCENARIOS) / "README.md");
+TEST(ScenarioFile, TheTutorialsExampleIsRead) {
+  std::ifstream stream(std::filesystem::path(TERN_SCENARIOS) / "../docs/tutorial.md");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const std::string open = "```yaml\n";
   const std::size_t begin = text.find(open) + open.size();

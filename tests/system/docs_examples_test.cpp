@@ -13,7 +13,6 @@
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 #include "simulator/app/simulator_node.h"
-#include "tests/support/temp_folder.h"
 #include "tests/support/virtual_flight.h"
 #include "tests/support/watched_flight.h"
 
@@ -78,17 +77,6 @@ std::string yaml_of(const std::string& page) {
   if (begin == std::string::npos) return "";
   const std::size_t from = begin + opening.size();
   return text.substr(from, text.find(closing, from) + 1 - from);
-}
-
-TEST(DocsExamples, TheCourtyardOfTheScenariosReadmeReachesItsGoal) {
-  const std::string yaml = yaml_of(TERN_SCENARIOS "/README.md");
-  ASSERT_EQ(yaml.rfind("name: courtyard\n", 0), 0U) << yaml;
-  const TempFolder folder;
-  const std::string file = folder.file("courtyard.yaml");
-  std::ofstream(file) << yaml;
-  const VirtualFlight flight = fly_virtually(file, {});
-  EXPECT_EQ(flight.end, "");
-  expect_reached(flight.result);
 }
 
 TEST(DocsExamples, TheCourtyardOfTheTutorialReachesItsGoal) {
