@@ -65,8 +65,8 @@ programs() {
 # Programs
 
 The output of `--help` of every program, made by [write.sh](write.sh) and compared by a test. The scripts in
-[launch_scripts](../../launch_scripts/README.md) start these programs. What each exit code means is in
-[exit_codes.md](exit_codes.md); the keys of the scenario file are in [keys.md](keys.md).
+[launch_scripts](../../launch_scripts/README.md) start these programs. Exit codes: [exit_codes.md](exit_codes.md). Keys of
+the scenario file: [keys.md](keys.md).
 TEXT
   local name command
   for name in $(names); do
