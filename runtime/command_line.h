@@ -37,8 +37,8 @@ class CommandOption {
   CommandOption& excludes(const CommandOption& other);
   CommandOption& needs(const CommandOption& other);
   CommandOption& needs(const std::string& other);
-  CommandOption& expected(int values);               ///< so many values
-  CommandOption& allow_extra_args(bool are_values);  ///< whether words after its value are values of it as well
+  CommandOption& expected(int values);               ///< number of values
+  CommandOption& allow_extra_args(bool are_values);  ///< whether further words are values as well
   CommandOption& take_all();                         ///< of all its values, if it is given again
   CommandOption& set(const std::string& value);      ///< as if the command line gave this value
 
@@ -78,7 +78,7 @@ class CommandLine {
   /// Refuses an option, in a callback: parse() prints "NAME: WHAT".
   [[noreturn]] static void refuse(const std::string& name, const std::string& what);
 
-  /// Parses. Prints help, version or what is refused.
+  /// Parses. Prints the help, the version or the refusal.
   /// @return the exit code if the program ends now: 0 after help or version, `bad` if something is refused
   std::optional<int> parse(int argc, const char* const* argv, int bad);
 
