@@ -86,8 +86,8 @@ const char* to_string(Stage stage);
 /// During a reported failsafe, setpoints are sent only after order_flight().
 ///
 /// **Take-off of an ArduPilot.** The bridge sends NAV_TAKEOFF, to uav.start's height above the vehicle's home. A
-/// setpoint would end that take-off, so setpoints start when the vehicle is up. A take-off that is under way already is
-/// waited for.
+/// setpoint would end that take-off, so setpoints start when the vehicle is up. If a take-off is already under way, the
+/// bridge waits for its end.
 class Bridge {
  public:
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
