@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "predictor/tracking/matching.h"
+#include "predictor/tracking/new_tracks.h"
 
 namespace tern {
 namespace {
@@ -119,33 +120,14 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
     if (dead && object.detections == 1 && !object.confirmed) ++state.existence.never;
     return dead;
   });
-  for (const std::size_t d : starting(state, observations, matching)) {
+  const NewTracks starting = new_tracks(state.objects, observations, matching);
+  state.not_started = starting.left_out;
+  for (const std::size_t d : starting.detections) {
     const std::int64_t given = detections[d].track_id;
     const std::int64_t id = given == kNoTrackId ? state.next_id++ : given;
     state.objects.push_back(start_track(detections[d], observations, id));
   }
   std::ranges::sort(state.objects, [](const TrackedObject& a, const TrackedObject& b) { return a.id < b.id; });
-}
-
-/// The detections that start tracks, in their order: those that no track has taken, the nearest to the sensor if not
-/// all have room. Counts the others in state.not_started.
-std::vector<std::size_t> Tracker::starting(State& state, const ObservationSet& from, const Matching& matching) {
-  std::vector<std::size_t> starting;
-  for (std::size_t d = 0; d < from.detections.size(); ++d) {
-    const std::int64_t given = from.detections[d].track_id;
-    const bool known = given != kNoTrackId &&
-                       std::ranges::any_of(state.objects, [&](const TrackedObject& o) { return o.id == given; });
-    if (!matching.taken[d] && !known) starting.push_back(d);
-  }
-  const auto tentative = std::ranges::count_if(state.objects, [](const TrackedObject& o) { return !o.confirmed; });
-  const std::size_t room = kMaxTentative - std::min(kMaxTentative, static_cast<std::size_t>(tentative));
-  state.not_started = starting.size() - std::min(starting.size(), room);
-  if (state.not_started == 0) return starting;
-  std::ranges::stable_sort(
-      starting, {}, [&](std::size_t d) { return (from.detections[d].position - from.sensor_position).squaredNorm(); });
-  starting.resize(room);
-  std::ranges::sort(starting);
-  return starting;
 }
 
 void Tracker::predict_to(State& state, UTime at) const {

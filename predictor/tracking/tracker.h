@@ -12,7 +12,7 @@
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
 #include "predictor/models/prediction_interval.h"
-#include "predictor/tracking/matching.h"
+#include "predictor/tracking/new_tracks.h"
 #include "predictor/tracking/prediction_scorer.h"
 #include "predictor/tracking/rest_record.h"
 #include "predictor/tracking/tracked_object.h"
@@ -62,10 +62,6 @@ inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
 /// TRACK_BOUNDS reports the bounds at the end of the piece that contains this time ahead.
 inline constexpr Duration kBoundsAhead{1'000'000};
-
-/// At most this many tracks are tentative at once. Sensors with many false detections would otherwise take the time of
-/// the confirmed tracks: 256 cost some 3 ms per set.
-inline constexpr std::size_t kMaxTentative = 256;
 
 struct TrackerConfig {
   PredictionSpec prediction;
@@ -173,7 +169,6 @@ class Tracker {
   };
   [[nodiscard]] const State& newest_state() const { return steps_.empty() ? before_steps_ : steps_.back().after; }
   void advance(State& state, const ObservationSet& observations) const;
-  static std::vector<std::size_t> starting(State& state, const ObservationSet& from, const Matching& matching);
   void predict_to(State& state, UTime at) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from,
