@@ -19,7 +19,7 @@ struct NewTracks {
   std::size_t left_out = 0;             ///< detections that found no room
 };
 
-/// Returns the detections that start tracks: those that are not matched, and whose id no track has. If kMaxTentative
+/// Returns the detections that start tracks: unmatched ones whose id, if given, is new. If kMaxTentative
 /// leaves no room for all, the nearest to the sensor start. O(d·t) for detections with ids, else O(d log d).
 NewTracks new_tracks(const std::vector<TrackedObject>& tracks, const ObservationSet& from, const Matching& matching);
 
