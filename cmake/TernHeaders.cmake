@@ -7,7 +7,7 @@ set(TERN_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <comp
 
 # A precompiled header is read only by what is compiled alike: these options and definitions are those of every source.
 set(TERN_COMMON_OPTIONS -pthread -Wno-error=invalid-pch)
-get_target_property(TERN_COMMON_DEFINITIONS fmt::fmt INTERFACE_COMPILE_DEFINITIONS)
+set(TERN_COMMON_DEFINITIONS $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
 
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/headers.cpp CONTENT "// Compiled beside the precompiled headers.\n")
 add_library(tern_headers OBJECT ${CMAKE_BINARY_DIR}/headers.cpp)
