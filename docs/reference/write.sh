@@ -65,8 +65,8 @@ programs() {
 # Programs
 
 The output of `--help` of every program, made by [write.sh](write.sh) and compared by a test. The scripts in
-[launch_scripts](../../launch_scripts/README.md) start these programs. Exit codes: [exit_codes.md](exit_codes.md). Keys of
-the scenario file: [keys.md](keys.md).
+[launch_scripts](../../launch_scripts/README.md) start these programs. See also [exit_codes.md](exit_codes.md), and
+[keys.md](keys.md) for the scenario file.
 TEXT
   local name command
   for name in $(names); do
