@@ -78,13 +78,14 @@ std::string box_text(const Box& box) {
 /// Why no point marks a voxel, and the keys that may help; "" if one does.
 std::string reason_for_nothing(const CloudFile& cloud, const Census& census, const ClassMeanings& classes) {
   if (census.near_box > 0) return "";
-  if (cloud.points.empty()) {
-    return "no point can be used: check origin, metres_per_unit and label";
-  }
+  const std::string properties =
+      cloud.properties.empty() ? "" : fmt::format(" (the file's properties: {})", listed(cloud.properties));
+  if (cloud.points.empty()) return "no point can be used: check origin, metres_per_unit and `label`" + properties;
   if (census.meant == 0) {
-    std::string text = "no point has a class with a meaning: classes present: " + classes_text(census, classes);
-    if (!cloud.properties.empty()) text += fmt::format("; properties: {}", listed(cloud.properties));
-    return text + "; name the class's property by `label`, and what its numbers mean by `classes`";
+    return fmt::format(
+        "no point has a class with a meaning; classes present: {}. Name the class's property by `label`{}, "
+        "and what its numbers mean by `classes`",
+        classes_text(census, classes), properties);
   }
   if (census.in_extents == 0) {
     return fmt::format("no point lies inside mapper.extents: the cloud reaches {}: check origin and metres_per_unit",

@@ -156,7 +156,8 @@ TEST_F(LoadMapTest, ACloudThatMarksNoVoxelIsRefusedWithWhatItHolds) {
                              HasSubstr("classes present: road_surface (11) 1891")));
   write("zero.ply", support::ply_file(wall(0), support::PlyKind::Ascii));
   EXPECT_THAT(error_of(with_source("file: zero.ply")),
-              testing::AllOf(HasSubstr("never_classified (0) 1891"), HasSubstr("properties: x, y, z, other, label")));
+              testing::AllOf(HasSubstr("never_classified (0) 1891"),
+                             HasSubstr("the file's properties: x, y, z, other, label")));
   write("far.ply", support::ply_file(wall(6, Vec3(700, 0, 0)), support::PlyKind::Big));
   EXPECT_THAT(error_of(with_source("file: far.ply")),
               testing::AllOf(HasSubstr("no point lies in or near uav.flight_box"), HasSubstr("(710.05, -3, 0)")));
