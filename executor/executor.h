@@ -19,8 +19,9 @@ namespace tern {
 /// The section `executor`.
 struct ExecutorConfig {
   double rate_hz = 20.0;
-  Duration lead{75'000};  ///< > kDeadlineLead, ≤ 5 s
-  double tube_m = 0.0;    ///< [0, kMaxTube]
+  Duration lead{75'000};       ///< > kDeadlineLead, ≤ 5 s
+  double tube_m = 0.0;         ///< [0, kMaxTube]
+  double start_reach_m = 5.0;  ///< (0, 1e5]
   YawFollowerConfig heading = {};
 
   template <typename V>
@@ -30,6 +31,8 @@ struct ExecutorConfig {
     v("tube_m", tube_m, Range{0.0, kMaxTube},
       "smallest tube of a request, m per axis: how far the vehicle may be from its setpoints; a larger measured tube "
       "replaces it");
+    v("start_reach_m", start_reach_m, Range{0.1, 1e5},
+      "farthest that the vehicle may be from `uav.start` when it first follows, m; else frame or unit are wrong");
     v("heading", heading);
   }
 };

@@ -17,13 +17,13 @@ Box widened(const Box& box, double by) { return {box.min() - Vec3::Constant(by),
 
 std::optional<std::string> RejoinGuard::check_start(const Vec3& p, const Vec3& start, bool has_flown) const {
   const char* hint = "are frame and unit of UAV_STATE right?";
-  if (!(has_flown ? bound() : widened(allowed_, kStartOutside)).contains(p)) {
+  if (!excursion_.value_or(widened(allowed_, kStartOutside)).contains(p)) {
     return fmt::format("the vehicle is at {} m, outside uav.flight_box; uav.start is {}: {}", place(p), place(start),
                        hint);
   }
-  if (!has_flown && (p - start).norm() > kStartReach) {
+  if (!has_flown && (p - start).norm() > start_reach_m_) {
     return fmt::format("the vehicle is at {} m, {:.1f} m from uav.start {} (limit {:g} m): {}", place(p),
-                       (p - start).norm(), place(start), kStartReach, hint);
+                       (p - start).norm(), place(start), start_reach_m_, hint);
   }
   return std::nullopt;
 }
@@ -50,7 +50,7 @@ std::optional<std::string> RejoinGuard::check_rejoin(const Vec3& commanded, cons
 
 void RejoinGuard::add_excursion(const Box& flown) {
   if (!excursion_ && !widened(allowed_, kBoxTolerance).contains(flown)) {
-    excursion_ = widened(allowed_.merged(flown), kExcursionStep);
+    excursion_ = widened(allowed_.merged(flown), kExcursionStep).merged(widened(allowed_, kMinExcursion));
   }
 }
 

@@ -16,7 +16,7 @@ namespace tern {
 /// | the measured position                                            | answer                                      |
 /// |------------------------------------------------------------------|---------------------------------------------|
 /// | outside the flight box by more than kStartOutside, at a start    | refused                                     |
-/// | farther than kStartReach from uav.start, at a start              | refused                                     |
+/// | farther than the start reach from uav.start, at a start          | refused                                     |
 /// | outside the bound below, when the vehicle follows again          | refused                                     |
 /// | outside the flight box by up to kMaxExcursion, the first time    | allowed; the excursion is the new bound     |
 /// | outside that bound                                               | refused                                     |
@@ -27,14 +27,16 @@ namespace tern {
 class RejoinGuard {
  public:
   static constexpr double kStartOutside = 0.5;    ///< m beyond the flight box, per axis: a vehicle that climbs there
-  static constexpr double kStartReach = 5.0;      ///< m, as the autopilot bridge has it (mavlink.reach_m)
   static constexpr double kMaxExcursion = 2.0;    ///< m beyond the flight box, per axis
   static constexpr double kExcursionStep = 0.25;  ///< m: later excursions may exceed the first one by this
+  static constexpr double kMinExcursion = 0.5;    ///< m: a first excursion counts as at least this large on each side
   static constexpr double kMaxShift = 3.0;        ///< m: sum of the rejoins' distances
   static constexpr double kForgiven = 0.05;       ///< m/s: the sum decays at this rate
 
   /// @param allowed  where the vehicle's centre may be so that its body is inside the flight box, W
-  explicit RejoinGuard(const Box& allowed) : allowed_(allowed) {}
+  /// @param start_reach_m  farthest start from uav.start, m
+  explicit RejoinGuard(const Box& allowed, double start_reach_m = 5.0)
+      : allowed_(allowed), start_reach_m_(start_reach_m) {}
 
   /// @param start  uav.start @param has_flown  whether the vehicle was commanded before
   /// @return why the vehicle at p must not be commanded, as text; nullopt if it may
@@ -56,6 +58,7 @@ class RejoinGuard {
   [[nodiscard]] Box bound() const;
 
   Box allowed_;
+  double start_reach_m_;
   std::optional<Box> excursion_;
   double shift_ = 0.0;  ///< m, at last_
   UTime last_;

@@ -31,7 +31,7 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
     : bus_(bus),
       uav_(uav),
       config_(config),
-      guard_(centre_box(uav.flight_box, uav.body)),
+      guard_(centre_box(uav.flight_box, uav.body), config.start_reach_m),
       tube_(config.tube_m),
       next_setpoint_(bus.clock().now()),
       next_goal_(next_setpoint_),
@@ -43,9 +43,9 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
 
-/// The planner counts the requests that it received, also those of an executor before this one.
+/// Simulator, bridge and planner count the requests that they received, also those of an executor before this one.
 void ExecutorNode::on_heartbeat(const Heartbeat& heartbeat) {
-  if (executor_ || heartbeat.process != "tern-planner") return;
+  if (executor_) return;
   const auto requests = heartbeat.channels.find(channels::kHorizonRequest.name);
   if (requests != heartbeat.channels.end() && requests->second.received > 0) has_flown_ = true;
 }
@@ -66,7 +66,8 @@ void ExecutorNode::wait_until_stationary(const UavState& state) {
   }
   if (!stationary_since_) stationary_since_ = state.at;
   if (state.at - *stationary_since_ < kStationaryFor) return;
-  const auto refusal = status_.following ? guard_.check_start(measured_, uav_.start, has_flown_) : std::nullopt;
+  const bool must_check = status_.following || !refused_start_.empty();
+  const auto refusal = must_check ? guard_.check_start(measured_, uav_.start, has_flown_) : std::nullopt;
   if (refusal) return refuse_start(*refusal);
   refused_start_.clear();
   begin(state);
@@ -83,6 +84,7 @@ void ExecutorNode::check_tracking(const UavState& state) {
   if (seen.maxCoeff() > kRejoinBeyond && !(error.maxCoeff() > kRejoinBeyond)) return;
   if (silent_since_ && check_after_silence(state, seen)) return;
   if (!following_) {
+    if (status_.following) return;  // its messages are too old: the committed trajectory is flown to its end
     if (!has_followed_) tube_.note_error(error);
     if (error.maxCoeff() > kRejoinBeyond) rejoin(state, false);
     return;
@@ -120,7 +122,7 @@ bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error)
   const bool turns = tube.isZero(0.0) && ((state.motion.v - mine.v).cwiseAbs().maxCoeff() > kJoinTolerance ||
                                           (state.motion.a - mine.a).cwiseAbs().maxCoeff() > kJoinTolerance);
   const bool parted = turns || ((error - tube).array() > kJoinTolerance).any();
-  if (parted) rejoin(state, false);
+  if (parted) rejoin(state, true);
   last_setpoint_ = std::max(last_setpoint_, bus_.received());
   return parted;
 }
@@ -136,7 +138,7 @@ void ExecutorNode::update_tube(UTime now) { executor_->set_tube(tube_.width(sigm
 /// While the vehicle does not follow, somebody else may fly it anywhere.
 void ExecutorNode::rejoin(const UavState& state, bool counts) {
   const Vec3 commanded = executor_->sample(state.at).p;
-  const auto refusal = following_ ? guard_.check_rejoin(commanded, state.motion.p, counts, state.at) : std::nullopt;
+  const auto refusal = is_commanded() ? guard_.check_rejoin(commanded, state.motion.p, counts, state.at) : std::nullopt;
   if (refusal) return lose(*refusal);
   UavState from = state;
   if (state.at <= last_setpoint_) {  // a published setpoint stays: carry the state on to just after it
@@ -147,7 +149,7 @@ void ExecutorNode::rejoin(const UavState& state, bool counts) {
   }
   executor_->rejoin(from);
   last_setpoint_ = from.at;
-  if (!following_) return;
+  if (!is_commanded()) return;
   Box flown;
   const ClampedSpline spline = executor_->committed().in_force_at(from.at).spline();
   for (int j = 0; j < spline.intervals(); ++j) flown.extend(spline.position_bounds(j));
@@ -167,6 +169,7 @@ void ExecutorNode::begin(const UavState& state) {
   update_tube(state.at);
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
+  began_following_ = following_;
   has_flown_ = has_flown_ || following_;
   yaw_follower_.emplace(state.yaw, state.at, config_.heading);
   publish_setpoint(state.at);
@@ -214,7 +217,7 @@ void ExecutorNode::refuse_start(const std::string& why) {
 }
 
 void ExecutorNode::start_following(UTime now) {
-  const bool again = std::exchange(has_followed_, true) || has_flown_;
+  const bool again = std::exchange(has_followed_, true) || began_following_;
   has_flown_ = true;
   if (again) {
     fall_silent(now);
@@ -234,7 +237,7 @@ void ExecutorNode::stop_following() {
 void ExecutorNode::on_goal(const Goal& goal) {
   if (goal_ && goal.id == goal_->id && !same_goal(goal, *goal_)) {
     bus_.refuse(channels::kGoal, Rejection::Inconsistent);
-    goal_refused_ = bus_.clock().now();
+    refused_goal_ = {goal.id, bus_.clock().now()};
   }
   if (goal_ && goal.id <= goal_->id) return;
   spdlog::info("goal {}: mode {}, ({:.2f}, {:.2f}, {:.2f}) m", goal.id, to_string(goal.mode), goal.position.x(),
@@ -260,7 +263,7 @@ void ExecutorNode::on_plan(const Plan& plan) {
 
 UTime ExecutorNode::next_wakeup() const {
   UTime next = goal_ ? next_goal_ : kNever;
-  if (!executor_) return next;
+  if (!executor_ || !lost_.empty()) return next;
   if (following_) next = std::min(next, inputs_.usable_until() + Duration{1});
   const auto request = silent_since_ ? std::nullopt : executor_->next_wakeup();
   return std::min({next, next_setpoint_, request.value_or(kNever)});
@@ -303,7 +306,7 @@ void ExecutorNode::publish_setpoint(UTime at) {
   UavState setpoint;
   setpoint.at = at;
   setpoint.motion = executor_->sample_after(at);
-  if (following_ && !guard_.may_command(setpoint.motion.p)) {
+  if (is_commanded() && !guard_.may_command(setpoint.motion.p)) {
     return lose("the committed trajectory leaves uav.flight_box too far");
   }
   setpoint.yaw = yaw_follower_->follow(setpoint.motion.v, at);
@@ -347,8 +350,9 @@ NodeHealth ExecutorNode::health() const {
   if (!refused_start_.empty()) return {ProcessState::Waiting, refused_start_};
   if (!executor_) return {ProcessState::Waiting, "a vehicle at rest (UAV_STATE)" + refusal_text()};
   if (status_.following && !following_) return {ProcessState::Waiting, reason_not_to_follow(now) + refusal_text()};
-  if (goal_refused_ && now - *goal_refused_ < kGoalRefusedReported) {
-    return {ProcessState::Ready, fmt::format("refused a goal: its id {} is in use for another one", goal_->id)};
+  if (refused_goal_ && now - refused_goal_->second < kGoalRefusedReported) {
+    return {ProcessState::Ready,
+            fmt::format("refused a goal: its id {} is in use for another one", refused_goal_->first)};
   }
   return {ProcessState::Ready, ""};
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/world/goal.h"
 #include "core/world/health.h"
@@ -56,8 +57,8 @@ inline constexpr double kRejoinBeyond = 0.1;
 ///
 /// Rejoin means: commit to a braking trajectory from the measured state; the next plan starts on it. The yaw starts
 /// anew because estimators correct it during take-off. Silent is needed because the vehicle may not have received the
-/// plan that was adopted last. Lost has no way out but a restart: the vehicle's own failsafe takes over when setpoints
-/// cease.
+/// plan that was adopted last. Lost has no way out but a restart: no setpoint leaves, so the vehicle comes to rest at
+/// the end of the trajectory that it knows, and its pilot or its own failsafe takes over.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);
@@ -86,6 +87,8 @@ class ExecutorNode final : public Node {
   /// Why the vehicle does not follow, in words; empty if it does.
   [[nodiscard]] std::string reason_not_to_follow(UTime now) const;
   [[nodiscard]] std::string refusal_text() const;
+  /// Whether the vehicle flies the setpoints, as far as is known: it still does while its messages are too old.
+  [[nodiscard]] bool is_commanded() const { return following_ || status_.following; }
   void refuse_start(const std::string& why);
   void start_following(UTime now);
   void stop_following();
@@ -118,11 +121,11 @@ class ExecutorNode final : public Node {
   RejoinGuard guard_;
   VehicleStatus status_;          ///< newest; does not follow before the first
   Vec3 measured_ = Vec3::Zero();  ///< position, newest, m, W
-  bool following_ = false, has_followed_ = false;
+  bool following_ = false, has_followed_ = false, began_following_ = false;
   bool has_flown_ = false;            ///< plans were requested, by this executor or one before it
   std::string refused_start_, lost_;  ///< reasons in words
   std::optional<std::map<std::string, ChannelCounters>> counters_at_loss_;  ///< when an input ceased to be usable
-  std::optional<UTime> goal_refused_;
+  std::optional<std::pair<std::int64_t, UTime>> refused_goal_;              ///< id, and when
   std::optional<UTime> silent_since_;  ///< set in state Silent: a UAV_STATE of this time or later ends it
   Tube tube_;
   EstimateResets resets_;

@@ -89,7 +89,8 @@ void WorldIntake::on_goal(const Goal& goal) {
     other_goal_ = goal;
     return;
   }
-  goal_received_ = now;
+  const bool is_repeated = newest_goal_ && goal.id == newest_goal_->id && same_goal(goal, *newest_goal_);
+  if (!is_repeated) goal_received_ = now;
   newest_goal_ = goal;
   ++goal_number_;
   publish_goal_to_hold();

@@ -99,7 +99,8 @@ std::string reason_for_nothing(const CloudFile& cloud, const Census& census, con
 
 std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& cloud, const ClassMeanings& classes,
                                     const MapperConfig& config, const Box& flight_box) {
-  const Box near = grown(flight_box, Vec3::Constant(source.point_radius + config.resolution));
+  Box near = grown(flight_box, Vec3::Constant(source.point_radius + config.resolution));
+  if (!source.fill_below.empty()) near.max().z() = kMaxCoordinate;  // a roof above the box fills the column below it
   const Census census = census_of(cloud, classes, config, near);
   const auto total =
       static_cast<std::int64_t>(cloud.points.size()) + cloud.not_finite + cloud.too_far + cloud.not_a_class;

@@ -28,6 +28,8 @@ TEST(RejoinGuard, StartsInsideTheBoxAndNearTheStartOnly) {
   EXPECT_TRUE(guard.check_start(1000.0 * kStart, kStart, false)) << "millimetres";
   EXPECT_THAT(guard.check_start(Vec3(15, 0, 1), kStart, false).value_or(""), HasSubstr("15.0 m from uav.start"));
   EXPECT_FALSE(guard.check_start(Vec3(15, 0, 1), kStart, true)) << "the executor was restarted in flight";
+  EXPECT_TRUE(guard.check_start(Vec3(15, 0, -1), kStart, true)) << "but in NED all the same";
+  EXPECT_FALSE(RejoinGuard(kAllowed, 20.0).check_start(Vec3(15, 0, 1), kStart, false)) << "executor.start_reach_m";
 }
 
 TEST(RejoinGuard, AConstantOffsetEndsAfterThreeMetresWhateverItsSize) {
@@ -69,6 +71,7 @@ TEST(RejoinGuard, TheFirstExcursionIsTheLast) {
   EXPECT_THAT(guard.check_rejoin(kStart, Vec3(0, 7.2, 1), false, at(2)).value_or(""),
               HasSubstr("too far outside uav.flight_box"));
   EXPECT_TRUE(guard.check_rejoin(kStart, Vec3(0, 0, 6.0), false, at(3))) << "on another side as well";
+  EXPECT_FALSE(guard.check_rejoin(kStart, Vec3(0, 0, 4.1), false, at(4))) << "within kMinExcursion";
 }
 
 }  // namespace

@@ -121,10 +121,20 @@ TEST_F(VehicleTrouble, AStateThatIsOldIsNoState) {
 
 TEST_F(VehicleTrouble, AStateThatIsRefusedIsNamedWithItsReason) {
   fly(1.0);
-  sends_state_ = false;
-  runner_.observer();
+  state_age_ = Duration{-1'000'000};  // ahead of every clock
+  fly(1.0);
+  EXPECT_EQ(requests_in(1.0), 0u);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("(refused: future)"));
+}
+
+TEST_F(VehicleTrouble, WithoutAStatusAnOffsetMovesNoSetpoint) {
+  fly(1.0);
+  sends_status_ = false;
+  measured_ = [](const Vec3& p) { return Vec3(p + Vec3(0, 3, 0)); };
   fly(0.4);
-  EXPECT_THAT(node_->health().waiting_for, HasSubstr("UAV_STATE is silent"));
+  const double before = farthest_;
+  fly(20.0);
+  EXPECT_LE(farthest_, before + 1e-9);
 }
 
 TEST_F(VehicleTrouble, AnEstimateBesideTheAutopilotsFrameLeadsNobodyAway) {
