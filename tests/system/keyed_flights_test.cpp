@@ -140,9 +140,9 @@ class KeyedFlight {
         heard.flown.emplace_back(channel, bytes);
       heard.newest.insert_or_assign(std::string(channel), std::move(bytes));
     });
-    bus.subscribe(channels::kHeartbeat, [this](const Heartbeat& m) { watch_.hear(m, now()); });
-    bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { watch_.hear(m, now()); });
-    bus.subscribe(channels::kFlightResult, [this](const FlightResult& m) { watch_.hear(m, now()); });
+    bus.subscribe(channels::kHeartbeat, [this](const Heartbeat& m) { watch_.receive(m, now()); });
+    bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { watch_.receive(m, now()); });
+    bus.subscribe(channels::kFlightResult, [this](const FlightResult& m) { watch_.receive(m, now()); });
   }
 
   [[nodiscard]] UTime now() { return system_.runner().now(); }

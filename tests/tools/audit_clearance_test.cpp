@@ -334,8 +334,8 @@ TEST(AuditClearance, CountsTheObstaclesThatWereThereDuringTheFlightAndNoOthers) 
   result.obstacles = 2;
   record.results = {result};
   const Audit audit = audit_flight(record);
-  EXPECT_EQ(audit.met.fewest, 2);
-  EXPECT_EQ(audit.met.most, 2);
+  EXPECT_EQ(audit.obstacle_count.fewest, 2);
+  EXPECT_EQ(audit.obstacle_count.most, 2);
   EXPECT_THAT(audit.check("clearance").summary, ::testing::EndsWith("; 2 obstacles"));
 
   const auto says = [&](std::int64_t obstacles) {
