@@ -11,8 +11,8 @@
 namespace tern {
 
 /// At most this many tracks are tentative at once. Sensors with many false detections would otherwise take the time of
-/// the confirmed tracks: 256 cost some 3 ms per set.
-inline constexpr std::size_t kMaxTentative = 256;
+/// the confirmed tracks: 512 cost some 7 ms per set.
+inline constexpr std::size_t kMaxTentative = 512;
 
 struct NewTracks {
   std::vector<std::size_t> detections;  ///< indices, ascending
