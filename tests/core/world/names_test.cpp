@@ -45,11 +45,11 @@ TEST(Names, AreTheConstantsOfTheMessagesDescriptions) {
 
 TEST(Names, OfAllOutcomesAreInTheTablesThatExplainThem) {
   for (const char* words : kWords<FlightOutcome>) {
-    EXPECT_THAT(text_of("monitor/README.md"), ::testing::HasSubstr("`" + std::string(words) + "`"));
+    EXPECT_THAT(text_of("docs/reference/summary.md"), ::testing::HasSubstr("`" + std::string(words) + "`"));
   }
   for (std::size_t k = 0; k < kPlanOutcomes; ++k) {
     const std::string outcome = key(static_cast<PlanOutcome>(k));
-    EXPECT_THAT(text_of("monitor/README.md"), ::testing::HasSubstr("`" + outcome + "`"));
+    EXPECT_THAT(text_of("docs/reference/summary.md"), ::testing::HasSubstr("`" + outcome + "`"));
     EXPECT_THAT(text_of("docs/results/table.py"), ::testing::HasSubstr("\"" + outcome + "\""));
   }
 }
