@@ -63,24 +63,12 @@ void PredictorNode::on_observations(const ObservationSet& observations) {
     watch_.trouble("unusable", text, bus_.clock().now());
   }
   const UpdateOutcome outcome = tracker_.update(usable);
-  if (outcome == UpdateOutcome::Used) {
-    report_overload(usable, input);
-    return have_input(input, observations.at);
-  }
+  if (outcome == UpdateOutcome::Used) return have_input(input, observations.at);
   bus_.count_late(channels::kObstacleObservations);
   if (outcome == UpdateOutcome::Repeated) {
     const std::string text = input + ": two sets of one time, the second is not used (do two sensors have one id?)";
     watch_.trouble("repeated", text, bus_.clock().now());
   }
-}
-
-void PredictorNode::report_overload(const ObservationSet& used, const std::string& input) {
-  const std::size_t left_out = tracker_.not_started();
-  if (left_out == 0) return;
-  const std::string text =
-      fmt::format("overloaded: {}: {} of {} detections start no track, the nearest {} are tentative", input, left_out,
-                  used.detections.size(), kMaxTentative);
-  watch_.trouble("overloaded", text, bus_.clock().now());
 }
 
 void PredictorNode::have_input(const std::string& input, UTime made_at) {

@@ -50,7 +50,6 @@ class PredictorNode final : public Node {
   void on_observations(const ObservationSet& observations);
   /// True if the sender is the active one of its sensor: one process per sensor_id, as on a channel with one sender.
   bool is_active_sender(const ObservationSet& observations, UTime now);
-  void report_overload(const ObservationSet& used, const std::string& input);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
   /// Publishes the bounds of the set's estimated tracks, in its order. @param bounds  ascending by id

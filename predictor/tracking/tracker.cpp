@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "predictor/tracking/matching.h"
-#include "predictor/tracking/new_tracks.h"
 
 namespace tern {
 namespace {
@@ -120,10 +119,12 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
     if (dead && object.detections == 1 && !object.confirmed) ++state.existence.never;
     return dead;
   });
-  const NewTracks starting = new_tracks(state.objects, observations, matching);
-  state.not_started = starting.left_out;
-  for (const std::size_t d : starting.detections) {
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (matching.taken[d]) continue;
     const std::int64_t given = detections[d].track_id;
+    const bool known = given != kNoTrackId &&
+                       std::ranges::any_of(state.objects, [&](const TrackedObject& o) { return o.id == given; });
+    if (known) continue;
     const std::int64_t id = given == kNoTrackId ? state.next_id++ : given;
     state.objects.push_back(start_track(detections[d], observations, id));
   }

@@ -12,7 +12,6 @@
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
 #include "predictor/models/prediction_interval.h"
-#include "predictor/tracking/new_tracks.h"
 #include "predictor/tracking/prediction_scorer.h"
 #include "predictor/tracking/rest_record.h"
 #include "predictor/tracking/tracked_object.h"
@@ -93,8 +92,7 @@ enum class UpdateOutcome {
 /// 1. It predicts every track to the time of the observation set.
 /// 2. It matches detections to tracks (matching.h), and updates the matched tracks.
 /// 3. It counts hits and misses, confirms and deletes tracks.
-/// 4. Each detection that is left starts a tentative track, the nearest to the sensor first, up to kMaxTentative. Ids
-///    are common to all sensors.
+/// 4. Each detection that is left starts a tentative track. Ids are common to all sensors.
 ///
 /// Only the sensor that detected a track last can miss it, because sensors see different things at different rates. A
 /// set *counts* for a track if it is from that sensor or detects the track.
@@ -133,8 +131,6 @@ class Tracker {
 
   /// All tracks, tentative ones included, ascending by id, at newest().
   [[nodiscard]] const std::vector<TrackedObject>& objects() const { return newest_state().objects; }
-  /// The number of detections in the newest set that started no track, because kMaxTentative tracks are tentative.
-  [[nodiscard]] std::size_t not_started() const { return newest_state().not_started; }
   /// The record of stationary tracks, at newest().
   [[nodiscard]] const RestRecord& rest() const { return newest_state().rest; }
   /// The time of the newest observation set; 0 if there is none.
@@ -161,7 +157,6 @@ class Tracker {
     std::vector<TrackedObject> objects;
     RestRecord rest;
     ExistenceRecord existence;
-    std::size_t not_started = 0;  // detections of the newest set that found no room for a track
   };
   struct Step {
     ObservationSet observations;

@@ -61,7 +61,7 @@ TEST(StartedAnew, TheTruthThatItTellsTheEstimatorDoesNotStep) {
   const auto [before, after] = shifts_over_a_restart(flight);
   EXPECT_LT(farthest(before.truth, after.truth), 0.15);
   EXPECT_LT(farthest(before.vision, after.vision), 0.15);
-  EXPECT_THAT(flight.words, Contains(HasSubstr("first seen in flight")));
+  EXPECT_THAT(flight.words, Contains(HasSubstr("in flight when first seen")));
 }
 
 TEST(StartedAnew, TheTruthThatItSaysDoesNotStepByWhatTheEstimateIsOff) {
@@ -72,13 +72,13 @@ TEST(StartedAnew, TheTruthThatItSaysDoesNotStepByWhatTheEstimateIsOff) {
   const auto [before, after] = shifts_over_a_restart(flight);
   EXPECT_GT(before.truth.front().norm(), 0.2) << "or else this shows nothing";
   EXPECT_LT(farthest(before.truth, after.truth), 0.15);
-  EXPECT_THAT(flight.words, Contains(HasSubstr("first seen in flight")));
+  EXPECT_THAT(flight.words, Contains(HasSubstr("in flight when first seen")));
 }
 
 TEST(StartedAnew, OnTheGroundItIsTheGroundThatDecides) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
-  EXPECT_THAT(flight.words, Not(Contains(HasSubstr("first seen in flight"))));
+  EXPECT_THAT(flight.words, Not(Contains(HasSubstr("in flight when first seen"))));
 }
 
 }  // namespace

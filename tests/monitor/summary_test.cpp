@@ -150,7 +150,7 @@ TEST(Summary, SaysWhereABlockedGoalIsExplained) {
   EXPECT_THAT(to_text(s), testing::StartsWith("timeout: 9 m from the goal\n"));
   s.reasons[idx(PlanReason::GoalBlocked)] = 120;
   EXPECT_THAT(to_text(s),
-              testing::StartsWith("timeout: 9 m from the goal; the goal was blocked: tern-planner.log says"));
+              testing::StartsWith("timeout: 9 m from the goal; the goal was blocked: tern-planner.log names"));
   s.outcome = FlightOutcome::Collision;
   EXPECT_THAT(to_text(s), Not(testing::HasSubstr("the goal was blocked"))) << "that is not why it ended";
 }

@@ -106,30 +106,6 @@ TEST(TrackerCoverage, CoversMotionsThatNoModelWasMadeFor) {
   }
 }
 
-TEST(Tracker, AFloodOfFalseDetectionsLeavesRoomForTheNearestAndIsCounted) {
-  Tracker tracker{TrackerConfig()};
-  Rng rng(1);
-  const Path mover = straight(Vec3(3, 0, 1), Vec3(0, 1, 0));
-  double t = 0.0;
-  for (int k = 0; k < 60; ++k) {
-    t = k / kRate;
-    std::vector<Detection> detections;
-    for (int d = 0; d < 600; ++d) {
-      const Vec3 p(rng.uniform(-40, 40), rng.uniform(-40, 40), rng.uniform(0, 5));
-      if (p.norm() > 6.0) detections.push_back(detection_of(p, kNoise, rng));
-    }
-    detections.push_back(detection_of(mover(t), kNoise, rng));
-    ASSERT_EQ(tracker.update(observations_at(t, detections)), UpdateOutcome::Used);
-    const auto tentative =
-        std::ranges::count_if(tracker.objects(), [](const TrackedObject& o) { return !o.confirmed; });
-    ASSERT_LE(static_cast<std::size_t>(tentative), kMaxTentative);
-  }
-  EXPECT_GT(tracker.not_started(), 0u);
-  const auto nearest = std::ranges::min_element(
-      tracker.objects(), {}, [&](const TrackedObject& o) { return (o.position - mover(t)).norm(); });
-  EXPECT_TRUE(nearest->confirmed) << "the mover beside the sensor is tracked";
-}
-
 TEST(Tracker, PredictsStationaryTracksAtRest) {
   Rng rng(1);
   Tracker tracker(TrackerConfig{});

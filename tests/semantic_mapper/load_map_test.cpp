@@ -131,7 +131,7 @@ PointCloud wall(std::uint8_t class_number, const Vec3& shift = Vec3::Zero()) {
   }
   return points;
 }
-constexpr const char* kWorld = "uav: {flight_box: {min: [-2, -6, 0], max: [24, 6, 4]}}\n";
+constexpr const char* kWorld = "uav: {goal: [20, 0, 1], flight_box: {min: [-2, -6, 0], max: [24, 6, 4]}}\n";
 std::string with_source(const std::string& source, const std::string& more = "") {
   return kWorld + ("mapper: {" + more + "sources: [{" + source + "}]}");
 }

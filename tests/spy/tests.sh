@@ -67,7 +67,7 @@ what_is_missing_is_said() {
   [[ $(code env -u DISPLAY "$scripts/spy.sh" --no-install) == 3 ]] || fail "exit code without a display"
   expect "it says so" has_text "DISPLAY is not set" "$work/out"
   [[ $(code "$scripts/spy.sh" --no-install "$work") == 3 ]] || fail "exit code without a flight"
-  expect "it says so" has_text "holds no flight" "$work/out"
+  expect "it says so" has_text "is not the folder of a flight" "$work/out"
   [[ $(code "$scripts/spy.sh" --isolated) == 3 ]] || fail "exit code of an unknown option"
 }
 
