@@ -15,6 +15,7 @@ mkdir -p "$folder"
 # The flight's nodes log to stdout too.
 "$BUILD/bin/scaling" --config "$ROOT/scenarios/paper_corridor.yaml" "$@" | grep -v '^\[' >"$folder/scaling.csv"
 {
+# shellcheck disable=SC2016  # the backquotes are Markdown's
   printf '# How cost grows\n\n`benchmarks/scaling.sh` writes this page and [scaling.csv](scaling.csv). Times are thread CPU time.\n'
   printf '[speed.md](speed.md#how-cost-grows) says what they mean.\n\n*Commit %s, %s, %s.*\n' \
     "$(commit)" "$(compiler)" "$(machine)"

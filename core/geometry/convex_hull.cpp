@@ -90,8 +90,8 @@ struct HalfEdge {
   std::size_t from, to, opposite;
 };
 
-// Calls visit(edge) once for each edge of a triangulated surface: its smaller vertex `from`, the other one `to`, and the
-// two vertices opposite to it.
+// Calls visit(edge) once for each edge of a triangulated surface: its smaller vertex `from`, the other one `to`, and
+// the two vertices opposite to it.
 template <class Visit>
 void for_each_edge(const std::vector<Triangle>& faces, std::size_t vertices, const Visit& visit) {
   std::vector<std::size_t> begin(vertices + 1, 0);

@@ -57,8 +57,8 @@ inline constexpr double kRejoinBeyond = 0.1;
 ///
 /// Rejoin means: commit to a braking trajectory from the measured state; the next plan starts on it. The yaw starts
 /// anew because estimators correct it during take-off. Silent is needed because the vehicle may not have received the
-/// plan that was adopted last. Lost has no way out but a restart. Since no setpoint leaves, the vehicle comes to rest at
-/// the end of the trajectory that it knows. Its pilot or its own failsafe takes over there.
+/// plan that was adopted last. Lost has no way out but a restart. Since no setpoint leaves, the vehicle comes to rest
+/// at the end of the trajectory that it knows. Its pilot or its own failsafe takes over there.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);

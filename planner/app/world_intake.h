@@ -72,8 +72,8 @@ class WorldIntake {
   std::optional<Goal> newest_goal_;
   UTime goal_received_;
   std::optional<Goal> other_goal_;  ///< the newest goal that was not taken for its id: it may belong to the next flight
-  std::int64_t goal_number_ = 0;         ///< counts the values of newest_goal_
-  Box body_;                             ///< of the vehicle, about its position
+  std::int64_t goal_number_ = 0;    ///< counts the values of newest_goal_
+  Box body_;                        ///< of the vehicle, about its position
   Box flight_box_;
   Vec3 position_;        ///< of the vehicle, W
   MessageName vehicle_;  ///< the request that described the vehicle last; none: as configured

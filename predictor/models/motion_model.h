@@ -44,8 +44,8 @@ MotionModel matern52(double ell, double speed);
 
 /// Position is an unknown constant plus a Gaussian process with covariance σ² e^{−r²/2}, r = |t|/ℓ. The standard
 /// deviation of velocity is speed = σ/ℓ. Six states and the constant: Taylor's polynomial of order 6 in ω² approximates
-/// the reciprocal of the spectrum, and is factored. J. Hartikainen, S. Särkkä, "Kalman filtering and smoothing solutions
-/// to temporal Gaussian process regression models", MLSP 2010. @param ell s; @param speed m/s, both > 0
+/// the reciprocal of the spectrum, and is factored. J. Hartikainen, S. Särkkä, "Kalman filtering and smoothing
+/// solutions to temporal Gaussian process regression models", MLSP 2010. @param ell s; @param speed m/s, both > 0
 MotionModel squared_exponential(double ell, double speed);
 
 /// A discrete step: s ← Φ s, P ← Φ P Φᵀ + Q.

@@ -22,7 +22,8 @@ const std::vector<std::pair<std::string, std::string>> kDefaultClasses{
 using NamedLabels = std::vector<std::pair<std::string, VoxelLabel>>;
 
 NamedLabels::value_type read_class(ConfigSection& classes, const std::string& name, const std::string& fallback) {
-  if (class_numbers(name).empty()) throw classes.error(name, "is not a class, a group of classes or a number from 0 to 255");
+  if (class_numbers(name).empty())
+    throw classes.error(name, "is not a class, a group of classes or a number from 0 to 255");
   return {name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "label of such points"))};
 }
 
