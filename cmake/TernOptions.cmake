@@ -15,10 +15,10 @@ if(TERN_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${TERN_CCACHE})
 endif()
 
-# The last three: false alarms of g++ 12 in std::string, which come and go with what is precompiled and with the length of
+# The last four: false alarms of g++ 12 in std::string, which come and go with what is precompiled and with the length of
 # the checkout's path.
 set(TERN_WARNINGS -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wno-restrict -Wno-array-bounds
-                  -Wno-stringop-overflow)
+                  -Wno-stringop-overflow -Wno-stringop-overread)
 # Of the compiler that they are held against; a newer one's new warnings shall not keep a user from flying.
 if(TERN_WARNINGS_AS_ERRORS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND TERN_WARNINGS -Werror)
