@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # test.sh [--all | --no-flights] [CTEST_OPTION...]: installs missing packages, builds everything (release), and runs the tests.
-#     --all         also the tests with the label soak: more cases and more live flights, which take hours
+#     --all         also the tests with the label soak: more cases and more live flights, which take much longer
 #     --no-flights  without the live flights
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
