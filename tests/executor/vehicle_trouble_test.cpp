@@ -137,16 +137,16 @@ TEST_F(VehicleTrouble, WithoutAStatusAnOffsetMovesNoSetpoint) {
   EXPECT_LE(farthest_, before + 1e-9);
 }
 
-TEST_F(VehicleTrouble, AnEstimateBesideTheAutopilotsFrameLeadsNobodyAway) {
-  for (const double offset : {0.6, 1.0, 3.0}) {
-    fly(1.0);
-    measured_ = [offset](const Vec3& p) { return Vec3(p + Vec3(0, offset, 0)); };
-    fly(20.0);
-    EXPECT_LE(farthest_, RejoinGuard::kMaxShift + offset + 1.0) << offset;
-    for (const HorizonRequest& request : requests_) {
-      ASSERT_LE(request.flight_box.max().y(), 6.0 + RejoinGuard::kMaxExcursion + RejoinGuard::kExcursionStep + 0.5);
-    }
-    if (!node_->lost().empty()) break;
+class OffsetEstimate : public VehicleTrouble, public ::testing::WithParamInterface<double> {};
+
+TEST_P(OffsetEstimate, LeadsTheVehicleNoFartherThanTheGuardAllows) {
+  const double offset = GetParam();
+  fly(1.0);
+  measured_ = [offset](const Vec3& p) { return Vec3(p + Vec3(0, offset, 0)); };
+  fly(20.0);
+  EXPECT_LE(farthest_, RejoinGuard::kMaxShift + offset + 1.0);
+  for (const HorizonRequest& request : requests_) {
+    ASSERT_LE(request.flight_box.max().y(), 6.0 + RejoinGuard::kMaxExcursion + RejoinGuard::kExcursionStep + 0.5);
   }
   EXPECT_THAT(node_->lost(), HasSubstr("does not follow its setpoints"));
   EXPECT_EQ(node_->health().state, ProcessState::Failed);
@@ -154,6 +154,8 @@ TEST_F(VehicleTrouble, AnEstimateBesideTheAutopilotsFrameLeadsNobodyAway) {
   fly(1.0);
   EXPECT_EQ(setpoints_, before) << "no setpoint leaves after that";
 }
+
+INSTANTIATE_TEST_SUITE_P(Metres, OffsetEstimate, ::testing::Values(0.6, 1.0, 3.0));
 
 TEST_F(VehicleTrouble, ADriftOfTheEstimateEndsAtTheFlightBox) {
   double drift = 0.0;
