@@ -154,7 +154,8 @@ std::vector<RequiredParameter> Bridge::required() const {
 std::string Bridge::clock_fault() const {
   const double rate = autopilot_.clock().rate();
   if (std::abs(rate - 1.0) <= kClockOff) return {};
-  return fmt::format("its clock runs at {:.2f} of ours: its simulation does not run in real time", rate);
+  return fmt::format(
+      "the autopilot's clock runs at {:.2f} of this clock's rate: its simulation does not run in real time", rate);
 }
 
 void Bridge::watch_clock() {

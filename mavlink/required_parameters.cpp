@@ -26,9 +26,9 @@ std::vector<RequiredParameter> bounds_of_px4(const UavSpec& uav) {
                                         at_least("MPC_Z_VEL_MAX_UP", v.z(), clipped),
                                         at_least("MPC_Z_VEL_MAX_DN", v.z(), clipped)};
   const double tilt = uav.limits.dynamics ? uav.limits.dynamics->tilt_max_deg : Dynamics::kTilt.high;
-  bounds.push_back(at_least("MPC_TILTMAX_AIR", tilt, "plans may tilt as far (uav.dynamics.tilt_max)"));
+  bounds.push_back(at_least("MPC_TILTMAX_AIR", tilt, "plans may tilt up to uav.dynamics.tilt_max"));
   if (!uav.limits.dynamics) return bounds;
-  const char* const turned = "plans may turn as fast (uav.dynamics.body_rate_max)";
+  const char* const turned = "plans may turn up to uav.dynamics.body_rate_max";
   for (const char* name : {"MC_ROLLRATE_MAX", "MC_PITCHRATE_MAX"}) {
     bounds.push_back(at_least(name, uav.limits.dynamics->body_rate_max_deg_s, turned));
   }
@@ -48,7 +48,8 @@ double jerk_of(const Limits& limits) {
 std::vector<RequiredParameter> bounds_of_copter(const UavSpec& uav) {
   const char* const shaped = "it limits the commanded jerk to this, and lags metres behind faster changes, m/s3";
   const double tilt = uav.limits.dynamics ? uav.limits.dynamics->tilt_max_deg : Dynamics::kTilt.high;
-  std::vector<RequiredParameter> bounds{at_least("ANGLE_MAX", 100.0 * tilt, "plans may tilt as far, 0.01 degrees")};
+  std::vector<RequiredParameter> bounds{
+      at_least("ANGLE_MAX", 100.0 * tilt, "plans may tilt up to uav.dynamics.tilt_max, 0.01 degrees")};
   const double jerk = jerk_of(uav.limits), up = std::min(uav.limits.j_max.z(), jerk);
   if (std::isfinite(jerk)) bounds.push_back(at_least("PSC_JERK_XY", jerk, shaped));
   if (std::isfinite(up)) bounds.push_back(at_least("PSC_JERK_Z", up, shaped));

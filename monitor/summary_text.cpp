@@ -95,7 +95,7 @@ std::string plan_lines(const FlightSummary& s) {
   text += "\n" + reason_line(s);
   const std::int64_t less = std::accumulate(s.by_level.begin() + 1, s.by_level.end(), std::int64_t{0});
   if (less > 0 || s.for_a_time > 0) {
-    text += fmt::format("  confidence    {} plans as promised, {} at less, {} below {}; {} for a time only\n",
+    text += fmt::format("  confidence    {} plans at full confidence, {} at less, {} below {}; {} for a limited time\n",
                         s.by_level.front(), less - s.by_level.back(), s.by_level.back(), kConfidenceLevels.back(),
                         s.for_a_time);
   }
@@ -137,7 +137,7 @@ std::string to_text(const FlightSummary& s) {
           row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
   text += message_lines(s);
   text += fmt::format("  restarts      {}\n", s.restarts);
-  for (const auto& [process, number] : s.concurrent) text += fmt::format("  at once       {} {}\n", number, process);
+  for (const auto& [process, number] : s.concurrent) text += fmt::format("  concurrent    {} {}\n", number, process);
   if (!s.log.empty()) text += fmt::format("  log           {}\n", s.log);
   return text + fmt::format("  version       {}\n", s.version);
 }

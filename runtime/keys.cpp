@@ -165,7 +165,7 @@ Result<int> seal_in_memory(const KeyRing& ring) {
   const int fd = memfd_create("tern-keys", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (fd < 0 || write(fd, secret.text.data(), secret.text.size()) != std::ssize(secret.text) ||
       fcntl(fd, F_ADD_SEALS, F_SEAL_WRITE | F_SEAL_GROW | F_SEAL_SHRINK | F_SEAL_SEAL) != 0) {
-    return fail(fmt::format("a file of keys in memory: {}", std::strerror(errno)));
+    return fail(fmt::format("a file in memory for the keys cannot be made: {}", std::strerror(errno)));
   }
   return fd;
 }

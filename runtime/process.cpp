@@ -98,7 +98,7 @@ void declare(CommandLine& app, Options& options, const ProcessDescription& descr
           ->type_name("FILE")
           ->check([](const std::string& path) { return path.empty() ? "the name of the file is empty" : ""; });
   app.add_option("--key-fd", options.key_fd,
-                 "The same from open file descriptor N (no pipe), which is closed after reading")
+                 "Read the keys from open file descriptor N (no pipe) instead, and close it")
       ->type_name("N")
       ->non_negative()
       ->excludes(key_file);

@@ -46,7 +46,7 @@ void check_name(const ConfigSection& section, std::string_view key, const std::s
 std::string unique_name(const ConfigSection& section, std::string name, std::set<std::string>& taken) {
   check_name(section, "name", name, kMaxNameBytes);
   if (!name.empty() && !taken.insert(name).second)
-    throw section.error("name", name + " is the name of another entry too");
+    throw section.error("name", name + " is also the name of another entry");
   return name;
 }
 
@@ -83,9 +83,9 @@ WaypointMotion read_waypoints(ConfigSection& section) {
   if (motion.points.empty()) throw section.error("points", "has no point (at least 1)");
   if (motion.repeat && motion.points.size() < 2) throw section.error("repeat", "true needs at least 2 points");
   if (motion.repeat && motion.points.front().second != motion.points.back().second) {
-    throw section.error("repeat", "true needs a last point that is the first one");
+    throw section.error("repeat", "true requires that the last point equals the first one");
   }
-  if (motion.repeat && motion.vanish) throw section.error("vanish", "true does not go with repeat");
+  if (motion.repeat && motion.vanish) throw section.error("vanish", "true cannot be combined with repeat: true");
   return motion;
 }
 
@@ -178,10 +178,10 @@ WorldSpec read_world(ConfigSection section) {
   for (const ConfigSection& entry : section.list("recorded")) world.recorded.push_back(read_recorded(entry));
   section.finish();
   if (world.generator == "none" && world.count > 0) {
-    throw section.error("count", fmt::format("{} needs a generator, which is none", world.count));
+    throw section.error("count", fmt::format("{} needs world.generator, which is none", world.count));
   }
   if (world.generator == "step_aside" && world.count > 0) {
-    throw section.error("count", fmt::format("{}: step_aside draws how many there are", world.count));
+    throw section.error("count", fmt::format("{}: the generator step_aside draws the count itself", world.count));
   }
   return world;
 }
@@ -197,7 +197,7 @@ Body read_body(ConfigSection section, Body body) {
   } else if (section.has("vertices")) {
     const auto rows = section.rows("vertices", 3, Range::within(100.0));
     if (rows.empty() || rows.size() > kMaxBodyVertices) {
-      throw section.error("vertices", fmt::format("{} of them (limit 1 to {})", rows.size(), kMaxBodyVertices));
+      throw section.error("vertices", fmt::format("{} vertices (limit 1 to {})", rows.size(), kMaxBodyVertices));
     }
     body.vertices.resize(3, static_cast<Eigen::Index>(rows.size()));
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -222,7 +222,7 @@ Route read_route(ConfigSection& section, const UavSpec& uav, std::uint64_t seed,
     return routes.emplace_back(section.vec3("start", uav.start, kPosition), section.vec3("goal", uav.goal, kPosition));
   }
   if (section.has("start") || section.has("goal")) {
-    throw section.error("routes", "goes without start and goal: each route has both");
+    throw section.error("routes", "cannot be combined with uav.start or uav.goal: each route has both");
   }
   Rng rng(digest("uav.routes", seed));
   Route route = routes[static_cast<std::size_t>(rng.uniform() * static_cast<double>(routes.size()))];
@@ -278,7 +278,7 @@ PrismRegion read_prism(ConfigSection section) {
   prism.z_max = section.required_number("z_max", kPosition);
   section.finish();
   if (prism.corners.size() < 3)
-    throw section.error("corners", fmt::format("{} of them (at least 3)", prism.corners.size()));
+    throw section.error("corners", fmt::format("{} corners (at least 3)", prism.corners.size()));
   if (prism.corners.size() > kMaxCorners)
     throw section.error("corners", fmt::format("{} of them (limit {})", prism.corners.size(), kMaxCorners));
   if (!is_simple_polygon(prism.corners)) throw section.error("corners", "the polygon touches or crosses itself");

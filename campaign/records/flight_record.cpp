@@ -121,19 +121,23 @@ void add_measures(std::vector<Column>& columns) {
   add("outcome", "reached, collision, timeout or failed", kNo, &FlightResult::outcome);
   add("detail", "in words: what was hit, which limit, what failed", kNo, &FlightResult::detail);
   add("flight_time_s", "world time at arrival or end, s", kReached, &FlightResult::flight_time_s);
-  add("first_entry_s", "first within 0.2 m of the goal, s", kReached, &FlightResult::first_entry_s);
+  add("first_entry_s", "world time of the first entry into 0.2 m about the goal, s", kReached,
+      &FlightResult::first_entry_s);
   add("path_length_m", "length of the path, m", kReached, &FlightResult::path_length_m);
   add("mean_speed_mps", "straight distance / flight time, m/s", kReached, &FlightResult::mean_speed_mps);
   add("top_speed_mps", "greatest speed, m/s", kAll, &FlightResult::top_speed_mps);
   add("stops", "times below 0.1 m/s before the goal, after the first second", kAll, &FlightResult::stops);
   add("min_clearance_m", "least distance to an obstacle in continuous time, negative in overlap, m", kAll,
       &FlightResult::min_clearance_m);
-  add("min_map_clearance_m", "the same to the map's occupied voxels, m", kAll, &FlightResult::min_map_clearance_m);
-  add("jerk_integral", "jerk squared over time, m^2/s^5", kReached, &FlightResult::jerk_integral);
-  add("limit_violations", "of speed, acceleration, jerk, flight box, and jumps", kAll, &FlightResult::limit_violations);
+  add("min_map_clearance_m",
+      "least distance to an occupied voxel of the map in continuous time, negative in overlap, m", kAll,
+      &FlightResult::min_map_clearance_m);
+  add("jerk_integral", "integral of the squared jerk over time, m^2/s^5", kReached, &FlightResult::jerk_integral);
+  add("limit_violations", "violations of speed, acceleration, jerk and flight box, and jumps", kAll,
+      &FlightResult::limit_violations);
   add("contacts_moving", "contacts while faster than 0.1 m/s", kAll, &FlightResult::contacts_moving);
-  add("contacts_at_rest", "contacts while slower", kAll, &FlightResult::contacts_at_rest);
-  add("obstacles", "that existed at some time of the flight", kNo, &FlightResult::obstacles);
+  add("contacts_at_rest", "contacts while slower than 0.1 m/s", kAll, &FlightResult::contacts_at_rest);
+  add("obstacles", "obstacles that existed at some time of the flight", kNo, &FlightResult::obstacles);
   add("obstacles_left_out", "recorded obstacles that started too near to the vehicle", kNo,
       &FlightResult::obstacles_left_out);
 }
@@ -144,8 +148,8 @@ void add_answers(std::vector<Column>& columns) {
     columns.push_back(column(name, meaning, Compared::All, member));
   };
   add("requests", "plans requested", &R::requests);
-  add("answered_in_time", "of these, by their deadline", &R::answered_in_time);
-  add("answers_late", "by the executor's clock", &R::answers_late);
+  add("answered_in_time", "requests answered by their deadline", &R::answered_in_time);
+  add("answers_late", "answers that were late by the executor's clock", &R::answers_late);
   add("answers_refused", "by the executor", &R::answers_refused);
   for (std::size_t k = 0; k < kPlanOutcomes; ++k) {
     const auto outcome = static_cast<PlanOutcome>(k);
@@ -194,7 +198,7 @@ std::vector<Column> make_columns() {
   constexpr Compared kNo = Compared::No;
   std::vector<Column> columns;
   columns.push_back(column("scenario", "the scenario's name", kNo, &R::identity, &CampaignIdentity::scenario));
-  columns.push_back(column("seed", "of everything random in the flight", kNo, &R::seed));
+  columns.push_back(column("seed", "seed of everything random in the flight", kNo, &R::seed));
   columns.push_back(
       column("count", "world.count: obstacles of the generator", kNo, &R::identity, &CampaignIdentity::count));
   add_measures(columns);
@@ -209,7 +213,7 @@ std::vector<Column> make_columns() {
              "JSON of --audit or --coverage, per class and time ahead: predictions, mean half-width m, covered "
              "at each confidence; claims: of plans, made and true at each",
              kNo, &R::coverage));
-  columns.push_back(column("restarts", "of processes in flight", kNo, &R::restarts));
+  columns.push_back(column("restarts", "restarts of processes in flight", kNo, &R::restarts));
   columns.push_back(column("audit", "passed, broken, failed; empty: not audited", kNo, &R::audit));
   columns.push_back(column("log", "of a failed flight, relative to the failures' folder", kNo, &R::log));
   columns.push_back(

@@ -38,9 +38,11 @@ BreachReport join_breach(const MotionSample& begin, const MotionSample& start) {
   const auto gap = [&](const char* format, const Vec3& a, const Vec3& b) {
     return beyond(Breach::Join, format, (a - b).cwiseAbs(), tolerance);
   };
-  if (auto r = gap("position gap {2} = {0:.9g} beyond {1:.9g}", begin.p, start.p); !r.ok()) return r;
-  if (auto r = gap("velocity gap {2} = {0:.9g} beyond {1:.9g}", begin.v, start.v); !r.ok()) return r;
-  return gap("acceleration gap {2} = {0:.9g} beyond {1:.9g}", begin.a, start.a);
+  if (auto r = gap("position differs from the start on {2} by {0:.9g}, more than {1:.9g}", begin.p, start.p); !r.ok())
+    return r;
+  if (auto r = gap("velocity differs from the start on {2} by {0:.9g}, more than {1:.9g}", begin.v, start.v); !r.ok())
+    return r;
+  return gap("acceleration differs from the start on {2} by {0:.9g}, more than {1:.9g}", begin.a, start.a);
 }
 
 BreachReport limit_breach(const ClampedSpline& spline, const Limits& limits) {
@@ -62,8 +64,10 @@ BreachReport box_breach(const ClampedSpline& spline, const Box& centre_box) {
   const auto out = [&](const char* format, const Vec3& distance) {
     return beyond(Breach::FlightBox, format, distance, tolerance);
   };
-  if (auto r = out("above the box by {2} = {0:.9g} beyond {1:.9g}", swept.max() - centre_box.max()); !r.ok()) return r;
-  return out("below the box by {2} = {0:.9g} beyond {1:.9g}", centre_box.min() - swept.min());
+  if (auto r = out("above the flight box on {2} by {0:.9g}, more than {1:.9g}", swept.max() - centre_box.max());
+      !r.ok())
+    return r;
+  return out("below the flight box on {2} by {0:.9g}, more than {1:.9g}", centre_box.min() - swept.min());
 }
 
 }  // namespace

@@ -307,7 +307,7 @@ void ExecutorNode::publish_setpoint(UTime at) {
   setpoint.at = at;
   setpoint.motion = executor_->sample_after(at);
   if (is_commanded() && !guard_.may_command(setpoint.motion.p)) {
-    return lose("the committed trajectory leaves uav.flight_box too far");
+    return lose("the committed trajectory leaves uav.flight_box by too much");
   }
   setpoint.yaw = yaw_follower_->follow(setpoint.motion.v, at);
   bus_.publish(channels::kSetpoint, setpoint);

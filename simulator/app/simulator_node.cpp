@@ -242,8 +242,8 @@ void SimulatorNode::end_without_truth(UTime now) {
   if (!config_.external || (now - *world_zero_).seconds() < timeout_s_ + kTruthLate.seconds()) return;
   FlightResult result = referee_.result_so_far();
   result.outcome = FlightOutcome::Timeout;
-  result.detail = fmt::format("{:g} s are over; the vehicle's position was last received at {:.1f} s", timeout_s_,
-                              referee_.now().seconds());
+  result.detail = fmt::format("no arrival within {:g} s; the vehicle's position was last received at {:.1f} s",
+                              timeout_s_, referee_.now().seconds());
   end_flight(result, 0, now);
 }
 

@@ -137,7 +137,7 @@ Result<void> Referee::set_map(const std::vector<Box>& occupied) {
 }
 
 std::string Referee::describe_timeout(const Vec3& p) const {
-  if (!goal_) return fmt::format("without a goal after {:.2f} s", timeout_s_);
+  if (!goal_) return fmt::format("no goal was set within {:.2f} s", timeout_s_);
   return fmt::format("{:.2f} m from the goal after {:.2f} s", (p - *goal_).norm(), timeout_s_);
 }
 

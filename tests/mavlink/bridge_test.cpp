@@ -402,7 +402,8 @@ TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
     return parameter_faults(required_parameters(Firmware::Px4, uav, 1, without_remote, vision), values, true);
   };
   EXPECT_THAT(faults(false, false), HasSubstr("MPC_Z_VEL_MAX_DN is 1.5, below 2: it clips"));
-  EXPECT_THAT(faults(false, false), HasSubstr("MPC_TILTMAX_AIR is 45, below 60: plans may tilt as far"));
+  EXPECT_THAT(faults(false, false),
+              HasSubstr("MPC_TILTMAX_AIR is 45, below 60: plans may tilt up to uav.dynamics.tilt_max"));
   EXPECT_THAT(faults(false, false), HasSubstr("MC_PITCHRATE_MAX is 220, below 500"));
   values["MPC_Z_VEL_MAX_DN"] = 2, values["MPC_TILTMAX_AIR"] = 60, values["MC_PITCHRATE_MAX"] = 500;
   EXPECT_EQ(faults(false, false), "");

@@ -216,7 +216,7 @@ TEST(ScenarioFile, ABoxBodyIsItsCorners) {
 TEST(ScenarioFile, RefusesTwoBodies) {
   EXPECT_EQ(error_of("uav:\n  body:\n    radius: 0.1\n    vertices: [[0, 0, 1]]\n"),
             "a.yaml:3: uav.body.radius: give one of radius, half_extents, vertices");
-  EXPECT_EQ(error_of("uav:\n  body:\n    vertices: []\n"), "a.yaml:3: uav.body.vertices: 0 of them (limit 1 to 64)");
+  EXPECT_EQ(error_of("uav:\n  body:\n    vertices: []\n"), "a.yaml:3: uav.body.vertices: 0 vertices (limit 1 to 64)");
 }
 
 TEST(ScenarioFile, TheWholeBodyMustStartAndEndInsideTheFlightBox) {
@@ -264,7 +264,7 @@ TEST(ScenarioFile, OfSeveralRoutesTheSeedDrawsOneAndTheWay) {
 
 TEST(ScenarioFile, RefusesRoutesBesideAStartAndOutsideTheFlightBox) {
   EXPECT_EQ(error_of("uav:\n  routes: [{from: [0, 0, 1], to: [9, 0, 1]}]\n  goal: [9, 0, 1]\n"),
-            "a.yaml:2: uav.routes: goes without start and goal: each route has both");
+            "a.yaml:2: uav.routes: cannot be combined with uav.start or uav.goal: each route has both");
   EXPECT_EQ(error_of("uav:\n  routes: [{from: [0, 0, 1]}]\n"), "a.yaml:2: uav.routes[0].to: is missing");
   for (int seed = 1; seed <= 8; ++seed) {
     EXPECT_THAT(error_of(fmt::format("seed: {}\nuav:\n  routes:\n    - {{from: [0, 0, 1], to: [8, 0, 1]}}\n"
@@ -290,7 +290,7 @@ TEST(ScenarioFile, RefusesUnknownGeneratorsAndCountsWithoutOne) {
             "a.yaml:2: world.generator: corridor is not one of none, paper_corridor, paper_attract, paper_repel, "
             "corridor_demo, "
             "mader_corridor, sando_forest, step_aside");
-  EXPECT_EQ(error_of("world:\n  count: 3\n"), "a.yaml:2: world.count: 3 needs a generator, which is none");
+  EXPECT_EQ(error_of("world:\n  count: 3\n"), "a.yaml:2: world.count: 3 needs world.generator, which is none");
   EXPECT_EQ(error_of("world:\n  generator: sando_forest\n  count: 100001\n"),
             "a.yaml:3: world.count: 100001 is out of range [0, 100000]");
 }
@@ -326,20 +326,20 @@ TEST(ScenarioFile, RefusesWaypointsOutOfOrderAndHalfRepeats) {
   EXPECT_EQ(obstacle_error(head + "points: [[0, 0, 0, 0]]\n      repeat: true\n"),
             "a.yaml:5: world.obstacles[0].repeat: true needs at least 2 points");
   EXPECT_EQ(obstacle_error(head + "points: [[0, 0, 0, 0], [1, 1, 0, 0]]\n      repeat: true\n"),
-            "a.yaml:5: world.obstacles[0].repeat: true needs a last point that is the first one");
+            "a.yaml:5: world.obstacles[0].repeat: true requires that the last point equals the first one");
   EXPECT_EQ(obstacle_error(head + "points: [[0, 0, 0, 0], [1, 0, 0, 0]]\n      repeat: true\n      vanish: true\n"),
-            "a.yaml:6: world.obstacles[0].vanish: true does not go with repeat");
+            "a.yaml:6: world.obstacles[0].vanish: true cannot be combined with repeat: true");
 }
 
 TEST(ScenarioFile, RefusesNamesGivenTwice) {
   EXPECT_EQ(
       obstacle_error(
           "{name: a, centre: [0, 0, 0]}\n    - {name: b, centre: [0, 0, 0]}\n    - {name: a, centre: [1, 0, 0]}\n"),
-      "a.yaml:5: world.obstacles[2].name: a is the name of another entry too");
+      "a.yaml:5: world.obstacles[2].name: a is also the name of another entry");
   EXPECT_EQ(obstacle_error("{centre: [0, 0, 0]}\n    - {centre: [0, 0, 0]}\n"), "") << "obstacles need no name";
   EXPECT_EQ(region_error("{name: a, class: water, ball: {centre: [0, 0, 0], radius: 1}}\n"
                          "    - {name: a, class: water, ball: {centre: [0, 0, 0], radius: 1}}\n"),
-            "a.yaml:4: semantics.regions[1].name: a is the name of another entry too");
+            "a.yaml:4: semantics.regions[1].name: a is also the name of another entry");
 }
 
 TEST(ScenarioFile, RefusesNamesThatDoNotFitTheirMessages) {
@@ -386,7 +386,7 @@ TEST(ScenarioFile, RefusesPrismsThatAreNoSolid) {
   };
   const std::string z = "        z_min: 0\n        z_max: 1\n";
   EXPECT_EQ(prism("[[0, 0], [1, 0], [0, 1]]", z), "");
-  EXPECT_EQ(prism("[[0, 0], [1, 0]]", z), "a.yaml:6: semantics.regions[0].prism.corners: 2 of them (at least 3)");
+  EXPECT_EQ(prism("[[0, 0], [1, 0]]", z), "a.yaml:6: semantics.regions[0].prism.corners: 2 corners (at least 3)");
   EXPECT_EQ(prism("[[0, 0], [1, 1], [1, 0], [0, 1]]", z),
             "a.yaml:6: semantics.regions[0].prism.corners: the polygon touches or crosses itself");
   EXPECT_EQ(prism("[[0, 0], [1, 0], [0, 1]]", "        z_min: 1\n        z_max: 1\n"),

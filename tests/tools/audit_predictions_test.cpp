@@ -343,7 +343,7 @@ TEST(AContact, IsLookedBackFrom) {
   }
   EXPECT_EQ(contact.confidence.value(), 0.9) << "the last plan claims none";
   EXPECT_NEAR(contact.confident_s.value(), 0.8, 1e-9);
-  EXPECT_THAT(to_text(contact, world.record), HasSubstr("alpha was 0.10 m, needed were 0.50 m: missed"));
+  EXPECT_THAT(to_text(contact, world.record), HasSubstr("alpha was 0.10 m, and 0.50 m were needed: missed"));
   const nlohmann::json json = to_json(contact, world.record);
   EXPECT_EQ(json["promised"].size(), 3U);
   EXPECT_EQ(json["promised"][0]["kept"], false);

@@ -86,7 +86,7 @@ std::string to_text(const Contact& contact, const FlightRecord& record) {
   for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
     text += fmt::format("  {} s before ", kBeforeContact[k]);
     const auto& predicted = contact.predicted[k];
-    text += predicted ? fmt::format("alpha was {:.2f} m, needed were {:.2f} m: {}.\n", predicted->alpha_m,
+    text += predicted ? fmt::format("alpha was {:.2f} m, and {:.2f} m were needed: {}.\n", predicted->alpha_m,
                                     predicted->needed_m, predicted->covered ? "covered" : "missed")
                       : std::string("it was not predicted.\n");
   }

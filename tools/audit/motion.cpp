@@ -227,7 +227,7 @@ Check check_continuity(const FlightRecord& record) {
 }
 
 Check check_commitment(const FlightRecord& record) {
-  Check check{.name = "commitment", .claim = "setpoints lie on the committed trajectory, and that is a logged plan"};
+  Check check{.name = "commitment", .claim = "setpoints lie on the committed trajectory, which is a plan of the log"};
   const std::vector<Commitments> all = commitments(record);
   const bool plans_unread = record.unread(channels::kPlan.name) > 0;
   const bool states_unread = record.unread(channels::kUavState.name) > 0;

@@ -83,7 +83,7 @@ class ExtractWriter {
   }
 
   void run() {
-    constexpr std::string_view kText = "Left out: what the answers in this log do not name.";
+    constexpr std::string_view kText = "This log holds only what its answers name.";
     sink_({0, now_us_, kExtractMark, {kText.begin(), kText.end()}});
     write_configurations();
     for (const auto& [version, map] : extract_.inputs.maps) {

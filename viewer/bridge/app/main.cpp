@@ -21,8 +21,9 @@ int main(int argc, char** argv) {
         app.add_option("--allow-host", options.allow_hosts, "Another name by which browsers may address this host")
             ->type_name("NAME")
             ->allow_extra_args(false);
-        app.add_option("--looked-fd", options.looked_fd, "Write a byte there when the first page connects");
-        app.add_option("--url-file", options.url_file, "Write the page's URL there")->type_name("FILE");
+        app.add_option("--looked-fd", options.looked_fd,
+                       "Write a byte to this descriptor when the first page connects");
+        app.add_option("--url-file", options.url_file, "Write the page's URL to this file")->type_name("FILE");
         tern::keep_logs_apart(app, options);
       }};
   return tern::run_process(argc, argv, description, [&options](tern::ProcessContext& context) {
