@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""docs_commands.py BIN [PAGE...]: checks the commands of README.md, docs/tutorial.md and docs/howto/*.md without running them.
+"""docs_commands.py BIN [PAGE...]: checks the commands of the pages without running them.
 
-Reads every command in an indented or fenced block, and every one in backquotes that begins with a script or program of
-Tern. Each script and program must exist and each long option must stand in its --help. Files, scenarios and keys of
-scenarios that a command names must exist. Prints a line per breach, `page:line: reason`; exit code 1 if there is any.
+Without PAGE it reads all pages of the tree except the changelog and the lab notes, whose commands are of their day. It
+reads every command in an indented or fenced block, and every one in backquotes that begins with a script or program of
+Tern. Each script and program must exist and each long option must stand in its --help. A test executable must be a
+target. Files, scenarios and keys of scenarios that a command names must exist. Prints a line per breach,
+`page:line: reason`; exit code 1 if there is any.
 """
 
 import functools
@@ -19,6 +21,7 @@ SCRIPTS = ROOT / "launch_scripts"
 PROCESSES = {"planner", "predictor", "executor", "simulator", "mapper", "mavlink", "autopilot_sim", "logger"}
 COMMON = {"--help", "--version"}
 SHELL_WORDS = {"do", "done", "then", "else", "sudo", "time", "exec"}
+OWN_FOLDERS = r"(?:benchmarks|docs|tests|tools|viewer|\.ci)"
 
 
 def commands_of_blocks(text):
@@ -42,7 +45,8 @@ def commands_of_blocks(text):
 
 def commands_in_text(text):
     """(number, command) of every command in backquotes that begins with a script or program of Tern."""
-    for match in re.finditer(r"(?<!`)`((?:\./)?(?:launch_scripts/)?(?:[a-z_]+\.sh|(?:build/release/bin/)?tern-[a-z-]+) [^`]+)`", text):
+    own = rf"(?:\./)?(?:launch_scripts/)?(?:[a-z_]+\.sh|(?:build/release/bin/)?tern-[a-z-]+|{OWN_FOLDERS}/[\w/]+\.(?:sh|py))"
+    for match in re.finditer(rf"(?<!`)`({own} [^`]+)`", text):
         yield text.count("\n", 0, match.start()) + 1, " ".join(match.group(1).split())
 
 
@@ -55,9 +59,13 @@ def simple_commands(line):
         words = list(lexer)
     except ValueError:
         return
-    command = []
+    command, is_target = [], False  # is_target: the word is the file of a redirection
     for word in words + [";"]:
-        if re.fullmatch(r"[();|&]+", word):
+        if re.fullmatch(r"[<>]+", word):
+            is_target = True
+        elif is_target:
+            is_target = False
+        elif re.fullmatch(r"[();|&]+", word):
             if command:
                 yield command
             command = []
@@ -86,6 +94,13 @@ class Checker:
                               env=environment)
         return done.stdout + done.stderr
 
+    @functools.lru_cache(maxsize=None)
+    def targets(self):
+        """Every word of the tree's CMakeLists.txt files; the names of targets are among them."""
+        folders = [f for f in ROOT.iterdir() if f.is_dir() and f.name != "build" and not f.name.startswith(".")]
+        lists = [path for folder in folders for path in folder.glob("**/CMakeLists.txt")]
+        return {word for path in lists for word in re.findall(r"[\w-]+", path.read_text(encoding="utf-8"))}
+
     def program_of(self, word):
         """The script or program of Tern that a word names, or None."""
         name = Path(word).name
@@ -98,7 +113,15 @@ class Checker:
     def check(self, where, words, is_block):
         program = self.program_of(words[0])
         if program is None:
-            if words[0] in ("python3", "source", "cat") and is_block:
+            if re.match(rf"^{OWN_FOLDERS}/[\w./-]+$", words[0]):
+                self.count += 1
+                if not (ROOT / words[0]).is_file():
+                    self.breaches.append(f"{where}: {words[0]}: no such script")
+            elif words[0].startswith("build/release/bin/"):
+                self.count += 1
+                if Path(words[0]).name not in self.targets():
+                    self.breaches.append(f"{where}: {words[0]}: no target of that name")
+            elif words[0] in ("python3", "source", "cat") and is_block:
                 self.check_files(where, words[1:])
             return
         self.count += 1
@@ -149,10 +172,15 @@ class Checker:
                     self.check(f"{name}:{number}", words, is_block)
 
 
+def pages_of_the_tree():
+    pages = [*ROOT.glob("*.md"), *ROOT.glob("*/README.md"), *(ROOT / "docs").glob("**/*.md")]
+    return sorted({page for page in pages if page.name != "CHANGELOG.md" and "lab" not in page.relative_to(ROOT).parts})
+
+
 def main():
     checker = Checker(Path(sys.argv[1]).resolve())
     pages = [Path(p).resolve() for p in sys.argv[2:]]
-    pages = pages or [ROOT / "README.md", ROOT / "docs/tutorial.md", *sorted((ROOT / "docs/howto").glob("*.md"))]
+    pages = pages or pages_of_the_tree()
     for page in pages:
         checker.check_page(page)
     print("\n".join(checker.breaches + [f"{checker.count} commands in {len(pages)} pages, {len(checker.breaches)} breaches"]))

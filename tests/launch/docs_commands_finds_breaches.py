@@ -16,6 +16,8 @@ SOUND = """A page with `fly.sh --audit --report` and `FILE:LINE: KEY`.
     launch_scripts/planner.sh --config scenarios/corridor_demo.yaml \\
       --log-level debug
     lcm-logger --channel=PLAN plans.lcm
+    build/release/bin/tern-campaign schema > scenarios/not_yet_written.json
+    build/release/bin/docs_examples_test --gtest_filter='*'; tests/launch/docs_commands.py BIN
 
 ```yaml
 tern-key: --not-an-option
@@ -29,6 +31,9 @@ BREACHES = {
     "has no option --inline": "Text with `fly.sh --inline`.",
     "no such script or program": "    build/release/bin/tern-nothing LOG",
     "no such script or program ": "```\nlaunch_scripts/nothing.sh\n```",
+    "no such script": "    tests/launch/nothing.py 100",
+    "no such script ": "Text with `benchmarks/nothing.sh 100`.",
+    "no target of that name": "    build/release/bin/nothing_test",
     "no such key": "    ./launch_scripts/fly.sh --set planner.nothing=3",
     "no such scenario": "    ./launch_scripts/fly.sh --scenario nothing",
     "no such file": "    python3 docs/examples/nothing.py",
