@@ -54,7 +54,7 @@ Box read_box(ConfigSection section) {
   const Box box(section.required_vec3("min", kPosition), section.required_vec3("max", kPosition));
   section.finish();
   if (!(box.min().array() < box.max().array()).all())
-    throw section.error("max", "is not greater than min on every axis");
+    throw section.error("max", "must be greater than min on every axis");
   return box;
 }
 
@@ -282,7 +282,7 @@ PrismRegion read_prism(ConfigSection section) {
   if (prism.corners.size() > kMaxCorners)
     throw section.error("corners", fmt::format("{} of them (limit {})", prism.corners.size(), kMaxCorners));
   if (!is_simple_polygon(prism.corners)) throw section.error("corners", "the polygon touches or crosses itself");
-  if (prism.z_min >= prism.z_max) throw section.error("z_max", "is not greater than z_min");
+  if (prism.z_min >= prism.z_max) throw section.error("z_max", "must be greater than z_min");
   return prism;
 }
 

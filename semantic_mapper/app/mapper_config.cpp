@@ -106,7 +106,7 @@ Box read_extents(ConfigSection section) {
                 section.required_vec3("max", kPosition, "upper corner of the map, m"));
   section.finish();
   if (!(box.min().array() < box.max().array()).all())
-    throw section.error("max", "is not greater than min on every axis");
+    throw section.error("max", "must be greater than min on every axis");
   return box;
 }
 

@@ -231,7 +231,7 @@ TEST(ScenarioFile, TheWholeBodyMustStartAndEndInsideTheFlightBox) {
       "a.yaml:3: uav.goal: [9, 0, 1] is outside the flight box, body included (limits [-0.5, -0.5, 0.5] to [8.5, 0.5, "
       "3.5])");
   EXPECT_EQ(error_of("uav:\n  flight_box:\n    min: [0, 0, 0]\n    max: [1, 0, 1]\n"),
-            "a.yaml:4: uav.flight_box.max: is not greater than min on every axis");
+            "a.yaml:4: uav.flight_box.max: must be greater than min on every axis");
 }
 
 TEST(ScenarioFile, WhatHangsBelowNeedsNoRoomAbove) {
@@ -390,7 +390,7 @@ TEST(ScenarioFile, RefusesPrismsThatAreNoSolid) {
   EXPECT_EQ(prism("[[0, 0], [1, 1], [1, 0], [0, 1]]", z),
             "a.yaml:6: semantics.regions[0].prism.corners: the polygon touches or crosses itself");
   EXPECT_EQ(prism("[[0, 0], [1, 0], [0, 1]]", "        z_min: 1\n        z_max: 1\n"),
-            "a.yaml:8: semantics.regions[0].prism.z_max: is not greater than z_min");
+            "a.yaml:8: semantics.regions[0].prism.z_max: must be greater than z_min");
 }
 
 TEST(ScenarioFile, RefusesSeedsAndTimeoutsOutOfRange) {

@@ -68,7 +68,7 @@ TEST(MapperConfig, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(error_of("mapper: {classes: {ground: hot}}"), HasSubstr("mapper.classes.ground"));
   EXPECT_THAT(error_of("mapper: {background: occupied}"), HasSubstr("mapper.background"));
   EXPECT_THAT(error_of("mapper: {extents: {min: [0, 0, 0], max: [1, 0, 1]}}"),
-              HasSubstr("is not greater than min on every axis"));
+              HasSubstr("must be greater than min on every axis"));
   EXPECT_THAT(error_of("mapper: {sources: [{format: las}]}"), HasSubstr("file"));
   EXPECT_THAT(error_of("mapper: {sources: [{file: a.las, fill_below: lava}]}"), HasSubstr("lava is not a class"));
   EXPECT_THAT(error_of("mapper: {sources: [{file: a.xyz, format: xyz}]}"), HasSubstr("format"));
