@@ -189,7 +189,7 @@ TEST(Px4Manners, ASimulationInSlowMotionIsNotFlown) {
   FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, slow);
   flight.run(20.0);
   EXPECT_FALSE(flight.autopilot.armed());
-  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("its clock runs at 0.70 of ours"));
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("clock runs at 0.70 of this clock"));
 }
 
 TEST(Px4Manners, ParametersAreSetByTheirOwnTypeAndCommandsNameWhomTheyMean) {
