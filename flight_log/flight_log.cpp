@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 
 /// Further channels are counted as one, so that damage which looks like names cannot fill the memory.
 constexpr std::size_t kMaxChannels = 1'000;
+/// Further spans between silences are not kept: damaged times must not fill the memory.
+constexpr std::size_t kMaxSpans = 10'000;
 constexpr char kOtherChannels[] = "(others)";
 /// The number of a channel's messages among which repetitions are found; repetitions follow within milliseconds.
 constexpr std::size_t kRemembered = 4096;
@@ -60,6 +62,32 @@ struct FlightLog::Reading {
   std::map<std::string, MessageLosses> losses;
   std::map<std::string, Recent> recent;
 
+  /// Keeps the last span open; the messages of several senders need not come in order.
+  void extend_spans(std::int64_t at_us) {
+    auto& spans = contents.spans;
+    const auto is_near = [at_us](const auto& span) {
+      return at_us >= span.first - kLogSilence.us && at_us <= span.second + kLogSilence.us;
+    };
+    if (spans.empty() || !is_near(spans.back())) {
+      if (spans.size() < kMaxSpans) spans.emplace_back(at_us, at_us);
+      return;
+    }
+    spans.back() = {std::min(spans.back().first, at_us), std::max(spans.back().second, at_us)};
+  }
+
+  void join_spans() {
+    std::vector<std::pair<std::int64_t, std::int64_t>> joined;
+    std::ranges::sort(contents.spans);
+    for (const auto& span : contents.spans) {
+      if (joined.empty() || span.first > joined.back().second + kLogSilence.us) {
+        joined.push_back(span);
+      } else {
+        joined.back().second = std::max(joined.back().second, span.second);
+      }
+    }
+    contents.spans = std::move(joined);
+  }
+
   LogChannel& channel_of(const std::string& name) {
     const auto found = contents.channels.find(name);
     if (found != contents.channels.end()) return found->second;
@@ -76,6 +104,7 @@ struct FlightLog::Reading {
     if (contents.events++ == 0) contents.first_us = contents.last_us = event.received_us;
     contents.first_us = std::min(contents.first_us, event.received_us);
     contents.last_us = std::max(contents.last_us, event.received_us);
+    extend_spans(event.received_us);
     LogChannel& channel = channel_of(event.channel);
     ++channel.messages;
     channel.bytes += static_cast<std::int64_t>(event.data.size());
@@ -126,6 +155,7 @@ Result<LogContents> FlightLog::read(const std::string& path) {
     while (const auto event = reader->next()) reading.take(*event);
     reading.take(reader->damage());
   }
+  reading.join_spans();
   return std::move(reading.contents);
 }
 

@@ -39,11 +39,17 @@ struct LogChannel {
   }
 };
 
+/// A log that holds no message for this long is silent: in a flight every process sends a HEARTBEAT each half second.
+inline constexpr Duration kLogSilence{1'000'000};
+
 /// The content of a log.
 struct LogContents {
-  std::vector<std::string> parts;              ///< the files, in order
-  std::int64_t events = 0;                     ///< complete events
-  std::int64_t first_us = 0, last_us = 0;      ///< when the first and the last were received, µs since the Unix epoch
+  std::vector<std::string> parts;          ///< the files, in order
+  std::int64_t events = 0;                 ///< complete events
+  std::int64_t first_us = 0, last_us = 0;  ///< when the first and the last were received, µs since the Unix epoch
+
+  /// The spans between silences: first and last time, µs since the Unix epoch; ascending.
+  std::vector<std::pair<std::int64_t, std::int64_t>> spans;
   LogDamage damage;                            ///< of all parts together; `truncated` is that of the last part
   std::map<std::string, LogChannel> channels;  ///< by name on the wire, including the suffix
 };

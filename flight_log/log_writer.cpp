@@ -81,8 +81,9 @@ Result<void> LogWriter::flush() {
     counters_.bytes += static_cast<std::int64_t>(done);
     counters_.written += buffered_;
   } else {
-    result = fail(fmt::format("{}: {} messages were not written: {}", part_path_, buffered_, std::strerror(errno)));
+    trouble_ = fmt::format("{}: {}", part_path_, std::strerror(errno));
     counters_.unwritten += buffered_;
+    result = fail(fmt::format("{} messages were not written: {}", buffered_, trouble_));
     if (ftruncate(fd_.get(), part_bytes_) == 0) lseek(fd_.get(), part_bytes_, SEEK_SET);
   }
   buffer_.clear();

@@ -48,12 +48,14 @@ class LogWriter {
 
   [[nodiscard]] const LogWriterCounters& counters() const { return counters_; }
   [[nodiscard]] const std::string& part_path() const { return part_path_; }  ///< file being written
+  /// Returns file and reason of the last events that could not be written; empty if all were.
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
   LogWriter(std::string path, std::int64_t rotate_bytes) : path_(std::move(path)), rotate_bytes_(rotate_bytes) {}
   Result<void> open_next_part();
 
-  std::string path_, part_path_;
+  std::string path_, part_path_, trouble_;
   std::int64_t rotate_bytes_;
   Descriptor fd_;
   int next_part_ = 0;

@@ -1,5 +1,6 @@
 #include "logger/app/logger_node.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
@@ -68,8 +69,12 @@ void LoggerNode::step(UTime now) {
 
 void LoggerNode::flush() {
   const auto flushed = writer_.flush();
-  if (!flushed && trouble_ != flushed.error().message) spdlog::error("{}", flushed.error().message);
+  const bool was_well = trouble_.empty();
   trouble_ = flushed ? "" : flushed.error().message;
+  if (const std::int64_t lost = writer_.counters().unwritten; lost > 0) {
+    trouble_ = fmt::format("{} messages are not in the log: {}", lost, writer_.trouble());
+  }
+  if (was_well && !trouble_.empty()) spdlog::error("{}", trouble_);
 }
 
 std::string LoggerNode::missing_configurations() const {

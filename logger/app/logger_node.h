@@ -31,7 +31,8 @@ LoggerConfig read_logger_config(ConfigSection section);
 /// - LCM's receiving thread empties the socket meanwhile. So a slow disk costs memory, not messages (Bus::listen).
 /// - A message longer than kLogMaxDataBytes, which no reader takes (only LCM fragments can be), is counted and left
 ///   out.
-/// - If the disk takes no data, the node is Failed, with the reason in waiting_for; it continues to try.
+/// - If the disk takes no data, the node is Failed, with the reason in waiting_for. It continues to try, but stays
+///   Failed: from then on the recording is incomplete. No flight begins with such a recording.
 /// - The node is Ready when it has the CONFIGURATION of every process of Tern whose heartbeat it receives: without them
 ///   a flight cannot be replayed. Processes repeat theirs while it waits (NodeHost), and a recorded simulator waits for
 ///   it.
@@ -70,7 +71,7 @@ class LoggerNode final : public Node {
   std::set<std::int64_t> configurations_;  ///< epochs of the senders whose CONFIGURATION arrived
   UTime next_flush_;
   std::int64_t too_large_ = 0;
-  std::string trouble_;  ///< why the last flush failed; empty after a success
+  std::string trouble_;  ///< why messages are not in the log, or why the last flush failed; empty: neither
 };
 
 }  // namespace tern

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,8 @@
 #include "runtime/process.h"
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a log that reaches the limit of a file's size is a full disk, which the node reports
   std::string path = "flight.lcm";
   std::optional<int> listens_fd;
   const tern::ProcessDescription description{

@@ -2,15 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
 
 #include "flight_log/log_format.h"
 #include "flight_log/log_reader.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/temp_folder.h"
 
 namespace tern {
@@ -119,26 +118,6 @@ TEST(LogWriter, NamesThePathThatCannotBeWritten) {
   ASSERT_FALSE(writer);
   EXPECT_NE(writer.error().message.find("/nowhere/a.lcm"), std::string::npos);
 }
-
-/// Simulates for this process a disk that is full after `bytes`, until it is destroyed.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit full{bytes, old_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &full);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit old_{};
-  void (*old_handler_)(int);
-};
 
 TEST(LogWriter, AFullDiskCostsWholeEventsAndIsSaid) {
   const TempFolder folder;

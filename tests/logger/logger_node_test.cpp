@@ -8,6 +8,7 @@
 #include "messages/codec.h"
 #include "runtime/process.h"
 #include "runtime/virtual_runner.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/temp_folder.h"
 
 namespace tern {
@@ -108,6 +109,35 @@ TEST(Logger, DoesNotWaitForTheConfigurationOfOneThatIsGone) {
   EXPECT_EQ(logger.health().state, ProcessState::Waiting);
   runner.run(runner.now() + Duration{1'000'000});
   EXPECT_EQ(logger.health().state, ProcessState::Ready);
+}
+
+TEST(Logger, SaysAtOnceAndForGoodThatAFullDiskLostMessages) {
+  const TempFolder folder;
+  VirtualRunner runner;
+  const auto& logger = dynamic_cast<LoggerNode&>(runner.start("tern-logger", [&](Bus& bus) {
+    return std::make_unique<LoggerNode>(bus, LoggerConfig{}, folder.file("a.lcm"));
+  }));
+  std::vector<Heartbeat> heard;
+  runner.observer().subscribe(channels::kHeartbeat, [&heard](const Heartbeat& beat) { heard.push_back(beat); });
+  Goal goal;
+  const auto publish = [&] {
+    goal.id += 1;
+    runner.observer().publish(channels::kGoal, goal);
+    runner.run(runner.now() + Duration{1'000'000});
+  };
+  publish();
+  EXPECT_EQ(logger.health().state, ProcessState::Ready);
+  {
+    const FullDisk disk(100);
+    publish();
+  }
+  EXPECT_EQ(heard.back().state, ProcessState::Failed);
+  EXPECT_NE(heard.back().waiting_for.find("are not in the log: " + folder.file("a.lcm")), std::string::npos)
+      << heard.back().waiting_for;
+  const std::int64_t lost = logger.counters().unwritten;
+  publish();
+  EXPECT_EQ(logger.counters().unwritten, lost) << "it writes again";
+  EXPECT_EQ(heard.back().state, ProcessState::Failed) << "the recording stays incomplete";
 }
 
 /// Fragments can make a message of 256 MB, which LCM hands over.
