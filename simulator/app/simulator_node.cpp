@@ -77,7 +77,10 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->receive(m.committed); });
   bus_.subscribe(channels::kPlan, [this](const Plan& plan) { vehicle_->receive(plan); });
-  if (config.external) subscribe_to_external_vehicle();
+  if (config.external) {
+    subscribe_to_external_vehicle();
+    referee_.trust_stated_velocities();
+  }
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) {
     const bool is_own = status.header.name.sender_epoch_us == bus_.epoch_us();
     if (is_own && catching_up_since_ && status.at >= *catching_up_since_) catching_up_since_.reset();
@@ -223,15 +226,20 @@ void SimulatorNode::publish_status(UTime now) {
 void SimulatorNode::admit(UTime now) {
   if (!world_zero_ || now < *world_zero_) return;
   const MotionHistory& flown = vehicle_->truth();
-  referee_.admit((now - *world_zero_).seconds(), [&](double t_s) {
+  referee_.admit((std::max(now, judged_until(now)) - *world_zero_).seconds(), [&](double t_s) {
     return flown.sample(std::min(*world_zero_ + Duration::from_seconds(t_s), flown.end())).p;
   });
+}
+
+/// The pieces between an external vehicle's states are judged whole, since their ends have its own velocities.
+UTime SimulatorNode::judged_until(UTime now) const {
+  return config_.external ? vehicle_->truth().end() : std::min(now, vehicle_->truth().end());
 }
 
 void SimulatorNode::judge(UTime now) {
   if (!world_zero_ || result_) return;
   const UTime from = *world_zero_ + referee_.now();
-  const UTime to = std::min(now, vehicle_->truth().end());
+  const UTime to = judged_until(now);
   if (to <= from) return end_without_truth(now);
   for (const CubicPiece& piece : vehicle_->truth().pieces(from, to).pieces) referee_.advance(referee_.now(), piece);
   if (const auto verdict = referee_.verdict()) end_flight(*verdict, 0, now);

@@ -78,6 +78,7 @@ class SimulatorNode final : public Node {
   [[nodiscard]] bool is_catching_up(UTime now);
   [[nodiscard]] std::string why_not_flying(UTime now) const;
   void admit(UTime now);
+  [[nodiscard]] UTime judged_until(UTime now) const;
   void judge(UTime now);
   void end_without_truth(UTime now);
   void end_flight(const FlightResult& result, int exit_code, UTime now);

@@ -17,7 +17,7 @@ double path_length(const FlownPiece& piece, double t0, double t1) {
   const double middle = 0.5 * (t0 + t1);
   const double half = 0.5 * (t1 - t0);
   const double node = half * std::sqrt(0.6);
-  const auto speed = [&](double t) { return piece.at(t).v.norm(); };
+  const auto speed = [&](double t) { return piece.velocity(t).norm(); };
   return half * (5.0 * speed(middle - node) + 8.0 * speed(middle) + 5.0 * speed(middle + node)) / 9.0;
 }
 
@@ -53,8 +53,7 @@ std::optional<double> first_entry(const FlownPiece& piece, double t0_s, double t
 
 std::optional<double> first_arrival(const FlownPiece& piece, double t0_s, double t1_s, const Vec3& goal) {
   const auto missing = [&](double t) {
-    const MotionSample s = piece.at(t);
-    return std::max((s.p - goal).norm() - kGoalRadius, s.v.norm() - kRestSpeed);
+    return std::max((piece.at(t).p - goal).norm() - kGoalRadius, piece.velocity(t).norm() - kRestSpeed);
   };
   const double lipschitz = std::max(piece.speed_bound(t0_s, t1_s), piece.acceleration_bound(t0_s, t1_s));
   return first_time_below_zero(missing, lipschitz, t0_s, t1_s, kMeasureTimeResolution);
@@ -119,14 +118,14 @@ void FlightMeasures::advance(const FlownPiece& piece, double t0_s, double t1_s, 
   path_length_m_ += length;
   jerk_integral_ += 36.0 * piece.coefficients.col(0).squaredNorm() * (t1_s - t0_s);
   for (const double t : {t0_s, 0.5 * (t0_s + t1_s), t1_s})
-    top_speed_mps_ = std::max(top_speed_mps_, piece.at(t).v.norm());
+    top_speed_mps_ = std::max(top_speed_mps_, piece.velocity(t).norm());
   count_stops(piece, std::max(t0_s, kStopsCountFrom), arrives ? t1_s - 2.0 * kMeasureTimeResolution : t1_s);
   add_exposure(piece, t0_s, t1_s, length);
 }
 
 void FlightMeasures::count_stops(const FlownPiece& piece, double t0_s, double t1_s) {
   const double steepness = piece.acceleration_bound(t0_s, t1_s);
-  const auto above = [&](double t) { return piece.at(t).v.norm() - kRestSpeed; };
+  const auto above = [&](double t) { return piece.velocity(t).norm() - kRestSpeed; };
   const auto below = [&](double t) { return -above(t); };
   for (double t = t0_s; t <= t1_s;) {
     const auto change = stopped_ ? first_time_below_zero(below, steepness, t, t1_s, kMeasureTimeResolution)

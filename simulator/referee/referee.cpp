@@ -58,7 +58,11 @@ void Referee::advance(Duration start, const CubicPiece& piece) {
   }
   if (!piece.coefficients.allFinite()) throw std::invalid_argument("referee: a piece that is not finite");
   if (outcome_) return;
-  const FlownPiece flown{piece.coefficients, start.seconds()};
+  FlownPiece flown{piece.coefficients, start.seconds()};
+  if (has_stated_velocities_) {
+    const double end_s = piece.duration.seconds();
+    flown.stated = {sample_cubic(piece.coefficients, 0.0).v, sample_cubic(piece.coefficients, end_s).v, end_s};
+  }
   if (last_) limits_.join(*last_, sample_cubic(piece.coefficients, 0.0), start.seconds());
   for (std::int64_t at = 0; at < piece.duration.us && !outcome_; at += kStepUs) {
     const Duration to = start + Duration{std::min(at + kStepUs, piece.duration.us)};
@@ -80,7 +84,7 @@ void Referee::step(const FlownPiece& piece, double t0_s, double t1_s) {
   limits_.advance(piece, t0_s, end_s);
   if (goal_ && !first_entry_s_) first_entry_s_ = first_entry(piece, t0_s, end_s, *goal_);
   measures_.advance(piece, t0_s, end_s, arrived_s && !contact && !scrape);
-  if (scrape || contact) ++(piece.at(end_s).v.norm() > kRestSpeed ? contacts_moving_ : contacts_at_rest_);
+  if (scrape || contact) ++(piece.velocity(end_s).norm() > kRestSpeed ? contacts_moving_ : contacts_at_rest_);
   if (scrape) return end(FlightOutcome::Collision, end_s, describe(*scrape, "the map", piece.at(end_s).p));
   if (contact) return end(FlightOutcome::Collision, end_s, describe(*contact, name_of(contact->id), piece.at(end_s).p));
   if (arrived_s && limits_.violations() == 0) return end(FlightOutcome::Reached, end_s, {});

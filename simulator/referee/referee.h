@@ -43,6 +43,9 @@ class Referee {
   void set_goal(const std::optional<Vec3>& goal);
   /// Sets the earliest arrival, world time, s: for a vehicle that guards its place.
   void set_earliest_arrival(double t_s) { earliest_arrival_s_ = t_s; }
+  /// Takes speeds (arrival, stops, top speed, path length) from the velocities at the pieces' ends: for a vehicle whose
+  /// states have time stamps that jitter. @pre each piece joins two states of the vehicle
+  void trust_stated_velocities() { has_stated_velocities_ = true; }
 
   /// Sets the occupied voxels of the newest map, as boxes (cover_with_boxes()). A contact with one is a collision.
   /// @return an Error for a box beyond WorldObstacle::kMaxCoordinate; the map then stays as it was
@@ -83,6 +86,7 @@ class Referee {
   UavSpec uav_;
   std::optional<Vec3> goal_;
   double earliest_arrival_s_ = 0.0;
+  bool has_stated_velocities_ = false;
   World world_;
   Appearances appearances_;
   double timeout_s_;

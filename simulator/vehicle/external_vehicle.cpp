@@ -6,6 +6,8 @@ namespace tern {
 namespace {
 
 constexpr Duration kRemembered{4'000'000};
+/// States nearer to each other than this are one: their distance in time is mostly jitter of their stamps.
+constexpr Duration kSameState{5'000};
 
 }  // namespace
 
@@ -17,7 +19,7 @@ ExternalVehicle::ExternalVehicle(const UavSpec& uav, UTime now) : truth_(uav.sta
 void ExternalVehicle::append(const UavState& state) {
   if (!has_state_) {
     truth_ = MotionHistory(state.motion.p, state.at);
-  } else if (state.at <= newest_.at) {
+  } else if (state.at - newest_.at < kSameState) {
     return;
   } else {
     truth_.append(hermite_piece(newest_.motion, state.motion, state.at - newest_.at));
