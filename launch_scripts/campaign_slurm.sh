@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # campaign_slurm.sh: a campaign as a Slurm job array; campaign_slurm.sh --help.
 #SBATCH --job-name=tern-campaign
-#SBATCH --output=tern-campaign-%A_%a.out
 set -euo pipefail
 # Slurm runs a copy of this script, so the project's folder is the one from which the job was submitted.
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -15,7 +14,7 @@ campaign_slurm.sh DIR SHARDS OPTION...: flies a campaign on a Slurm cluster.
 
 Run it in the project's folder; every node must see that folder and DIR. It submits an array of SHARDS jobs, each of which
 flies its share of the seeds into DIR/shards/. When all have succeeded, a last job merges them into DIR/flights.csv and
-DIR/summary.json. OPTION... are tern-campaign's: --world, --count, --seeds, --set, --charge, --audit.
+DIR/summary.json. What the jobs print is in DIR/output/. OPTION... are tern-campaign's: --world, --count, --seeds, --set, --charge, --audit.
 
 Cores per job: CPUS=K in the environment (default 4). Partition, account and time limit: Slurm's own variables
 SBATCH_PARTITION, SBATCH_ACCOUNT and SBATCH_TIMELIMIT. After a failure the same command continues where it stopped.
@@ -29,9 +28,13 @@ shift 2
 
 if [[ -z ${SLURM_JOB_ID:-} ]]; then
   build_programs tern-campaign tern-audit
-  mkdir -p "$dir/shards"
-  array=$(sbatch --parsable --array="1-$shards" --cpus-per-task="${CPUS:-4}" "${BASH_SOURCE[0]}" "$dir" "$shards" "$@")
-  merge=$(sbatch --parsable --dependency="afterok:${array%%;*}" "${BASH_SOURCE[0]}" "$dir" "$shards" --merge)
+  mkdir -p "$dir/shards" "$dir/output"
+  # In the name of an output file, Slurm reads % as the beginning of a pattern.
+  output=${dir//%/%%}/output
+  array=$(sbatch --parsable --array="1-$shards" --cpus-per-task="${CPUS:-4}" --output="$output/shard-%a-of-job-%A.out" \
+    "${BASH_SOURCE[0]}" "$dir" "$shards" "$@")
+  merge=$(sbatch --parsable --dependency="afterok:${array%%;*}" --output="$output/merge-of-job-%j.out" \
+    "${BASH_SOURCE[0]}" "$dir" "$shards" --merge)
   say "submitted: $shards shards as job ${array%%;*}, then their merging as job ${merge%%;*}"
 elif [[ $1 == --merge ]]; then
   parts=()

@@ -252,11 +252,12 @@ make_sbatch() {
   cat >"$work/path/sbatch" <<'END'
 #!/usr/bin/env bash
 set -euo pipefail
-array='' cpus=1
+array='' cpus=1 output=slurm-%A_%a.out
 while [[ $1 == --* ]]; do
   case $1 in
     --array=1-*) array=${1##*-} ;;
     --cpus-per-task=*) cpus=${1#*=} ;;
+    --output=*) output=${1#*=} ;;
   esac
   shift
 done
@@ -264,8 +265,9 @@ spool=$(dirname "$(dirname "$0")")/spool
 cp "$1" "$spool/script"
 shift
 for ((k = 1; k <= ${array:-1}; k++)); do
+  out=${output//%a/${array:+$k}} out=${out//%[Aj]/7}
   env SLURM_JOB_ID=7 SLURM_SUBMIT_DIR="$PWD" ${array:+SLURM_ARRAY_TASK_ID=$k SLURM_CPUS_PER_TASK=$cpus} \
-    bash "$spool/script" "$@" >>"$spool/out" 2>&1
+    bash "$spool/script" "$@" >>"$out" 2>&1
 done
 echo 7
 END
@@ -281,6 +283,9 @@ the_slurm_script_flies_all_shards_and_merges_them() {
   fly "$work/whole.csv" --seeds 1:5
   cmp "$work/whole.csv" "$work/dir/flights.csv"
   grep -q '"flights": 5' "$work/dir/summary.json" || fail "$(cat "$work/dir/summary.json")"
+  local outputs='merge-of-job-7.out shard-1-of-job-7.out shard-2-of-job-7.out shard-3-of-job-7.out '
+  [[ $(cd "$work/dir/output" && printf '%s ' *) == "$outputs" ]] || fail "output files: $(ls "$work/dir/output")"
+  [[ -z $(find "$root" -maxdepth 1 -name '*.out') ]] || fail "output files in the clone"
 }
 
 declare -F "$1" >/dev/null || fail "no test $1"
