@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -77,7 +78,8 @@ FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& e
   record.seed = summary.seed.value_or(0);
   record.result = summary.result.value_or(unjudged(summary.outcome, summary.detail));
   record.result.outcome = summary.outcome;
-  record.result.detail = summary.detail;
+  const std::string& why = summary.explanation.sentence;
+  record.result.detail = why.empty() ? summary.detail : why;
   record.requests = summary.requests;
   record.answered_in_time = summary.answered_in_time;
   record.answers_late = executor.late();
@@ -90,7 +92,7 @@ FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& e
   return record;
 }
 
-/// Runs the auditor. @return "passed", "broken" or "failed".
+/// Runs the auditor. @return "passed", "broken", "incomplete", "not judged" (tern-audit's exit codes) or "failed"
 std::string run_audit(const std::string& audit, const std::string& folder) {
   const std::string output = folder + "/audit.txt";
   std::filesystem::remove(output);
@@ -99,8 +101,9 @@ std::string run_audit(const std::string& audit, const std::string& folder) {
       {.command = {audit, folder + "/flight.lcm", "--json", folder + "/audit.json"}, .out = out, .error = out});
   close(out);
   const ProcessEnd end = await_child(child);
-  if (end.signal != 0 || end.exit_code > 1) return "failed";
-  return end.exit_code == 0 ? "passed" : "broken";
+  constexpr std::array kVerdicts{"passed", "broken", "failed", "incomplete", "not judged"};
+  const auto code = static_cast<std::size_t>(end.exit_code);
+  return end.signal == 0 && code < kVerdicts.size() ? kVerdicts[code] : "failed";
 }
 
 /// Reads coverage and tracking from the audit. @throws std::runtime_error if its file is unreadable

@@ -19,7 +19,7 @@ inline constexpr int kExitCannotWrite = 3;
 
 /// A program that reads each flight's log. It is run as "PROGRAM LOG --json FILE", as tern-audit is. The flight's
 /// record takes coverage (key coverage_sums) and tracking (measures of check "tube") from FILE. Exit code 0 means
-/// passed, 1 broken; any other end means failed.
+/// passed, 1 broken, 3 incomplete, 4 not judged; any other end means failed.
 struct Auditor {
   std::string program;  ///< empty: none
   bool judges = true;   ///< true: the verdict is recorded; false: only the verdict "failed" is

@@ -28,11 +28,14 @@ std::string to_text(const ProcessEnd& end) {
 }
 
 int code_after_flight(int monitor_code, bool has_summary) {
+  if (monitor_code == kExitIncomplete) return kExitIncomplete;
   return has_summary && monitor_code <= kExitFailed ? monitor_code : kExitFailed;
 }
 
 int code_after_audit(int code, int audit_code) {
+  constexpr int kPartOnly = 3, kNotJudged = 4;
   if (audit_code == 0) return code;
+  if (audit_code == kPartOnly || audit_code == kNotJudged) return code == 0 ? kExitIncomplete : code;
   if (audit_code != 1) return kExitFailed;
   return code == 1 || code == kExitFailed ? code : kExitBroken;
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/time.h"
+#include "monitor/flight_summary.h"
 #include "runtime/child_process.h"
 
 namespace tern {
@@ -33,12 +34,12 @@ int shell_code(const ProcessEnd& end);
 /// "signal KILL" or "exit code 70".
 std::string to_text(const ProcessEnd& end);
 
-/// The flight's exit code from the monitor's: 0 reached, 1 collision, 2 not reached in time, 3 failed. Without a
-/// summary the monitor did not judge, and the flight has failed.
+/// The flight's exit code from the monitor's: 0 reached, 1 collision, 2 timeout, 3 failed, kExitIncomplete. Without a
+/// summary the flight has failed. A full disk is the exception: kExitIncomplete stays.
 int code_after_flight(int monitor_code, bool has_summary);
 
 /// The flight's exit code after tern-audit.
-/// @param code  before the audit, 0 … 3  @param audit_code  0 holds, 1 broken, other: the audit failed
+/// @param code  before the audit  @param audit_code  0 holds, 1 broken, 3 incomplete, 4 not judged, other: it failed
 int code_after_audit(int code, int audit_code);
 
 }  // namespace tern

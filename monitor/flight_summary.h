@@ -11,6 +11,7 @@
 #include "core/world/flight_result.h"
 #include "core/world/horizon.h"
 #include "core/world/vehicle.h"
+#include "monitor/flight_cause.h"
 #include "monitor/process_table.h"
 #include "monitor/request_ledger.h"
 
@@ -33,7 +34,10 @@ struct FlownSettings {
 /// All numbers of a flight's summary.
 struct FlightSummary {
   FlightOutcome outcome = FlightOutcome::Failed;
-  std::string detail;  ///< why, in words; may be empty
+  std::string detail;       ///< why, in words; may be empty
+  Explanation explanation;  ///< the cause and a remedy; empty if the goal was reached
+  std::optional<std::string>
+      recording;  ///< why it is incomplete; empty: it is whole; nullopt: no tern-logger was heard
   std::string scenario;
   std::optional<std::uint64_t> seed;  ///< nullopt if the scenario could not be read
   std::optional<std::int64_t> count;  ///< obstacles of the world's generator; nullopt as for the seed
@@ -52,19 +56,26 @@ struct FlightSummary {
   std::map<std::string, int> concurrent;  ///< processes of which several ran at a time, and the largest number
   std::string log;                        ///< path of the recording; empty: none
   std::string command;                    ///< command line of the user; empty: not known
+  double pace = 1.0;                      ///< seconds of flight per second of the system's clock, which replan_ms has
   std::string version;                    ///< build id
 };
 
 /// One JSON object, two spaces of indent. Values that are missing (NaN, a measure without a referee) are null. Its
 /// keys:
 ///
-///     outcome, detail, scenario, seed, count, settings, flight_time_s, first_entry_s, path_length_m, mean_speed_mps,
-///     top_speed_mps, stops, min_clearance_m, min_map_clearance_m, limit_violations, contacts_moving, contacts_at_rest,
-///     obstacles, obstacles_left_out, requests, answered_in_time, second_answers, plans, confidence, left_out,
-///     replan_ms, exposure, messages, restarts, beside, log, command, version
+///     outcome, detail, cause, why, recording, scenario, seed, count, settings, flight_time_s, first_entry_s,
+///     path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, min_map_clearance_m, limit_violations,
+///     contacts_moving, contacts_at_rest, obstacles, obstacles_left_out, requests, answered_in_time, second_answers,
+///     plans, confidence, left_out, replan_ms, exposure, messages, restarts, beside, log, command, pace,
+///     version
 std::string to_json(const FlightSummary& summary);
 
-/// The summary as text, at most 34 lines of at most 100 characters while there are at most 6 regions.
+/// The summary as text: at most 34 lines of at most 100 characters, if there are at most 6 regions. The explanation,
+/// and the reason of an incomplete recording, are further lines after the first.
 std::string to_text(const FlightSummary& summary);
+
+inline constexpr int kExitIncomplete = 5;  ///< the vehicle reached its goal, but the recording is incomplete
+/// The exit code of tern-monitor: 0 reached, 1 collision, 2 timeout, 3 failed, kExitIncomplete.
+int exit_code(const FlightSummary& summary);
 
 }  // namespace tern

@@ -7,13 +7,23 @@
 #include <utility>
 
 #include "core/world/body.h"
+#include "monitor/flight_cause.h"
 
 namespace tern {
+namespace {
+
+/// Modes of the simulator's own vehicles; an autopilot has others, and its clock cannot be slowed.
+bool is_simulated(const std::string& mode) { return mode.empty() || mode == kPerfectMode || mode == "quadrotor"; }
+
+}  // namespace
+
 FlightWatch::FlightWatch(const Scenario& scenario, UTime now)
-    : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
+    : scenario_(scenario), goal_(scenario.uav.goal), began_(now), evidence_(scenario.uav.start, scenario.uav.goal) {}
 
 void FlightWatch::receive(const Heartbeat& heartbeat, UTime now) {
   processes_.add(heartbeat, now);
+  recording_.receive(heartbeat);
+  note(heartbeat);
   beat_ = now;
   const bool of_result = result_ && heartbeat.process == kSimulatorProcess &&
                          heartbeat.header.name.sender_epoch_us == result_->header.name.sender_epoch_us;
@@ -29,15 +39,18 @@ std::int64_t FlightWatch::simulator_epoch_us() const {
 
 void FlightWatch::receive(const UavState& state) {
   state_ = state;
+  note(state);
   ledger_.advance(state.header.utime);
 }
 
 void FlightWatch::receive(const Goal& goal) {
+  note(goal);
   if (goal.mode == GoalMode::Go) goal_ = goal.position;
 }
 
 void FlightWatch::receive(const HorizonRequest& request, UTime now) {
   ledger_.add(request);
+  note(request);
   const bool is_executors = request.header.name.sender_epoch_us == processes_.epoch_us(kExecutorProcess);
   if (world_epoch_us_ != 0 || (first_request_ && !is_executors)) return;
   first_request_ = request;
@@ -45,8 +58,15 @@ void FlightWatch::receive(const HorizonRequest& request, UTime now) {
   if (is_executors) world_epoch_us_ = processes_.epoch_us(kSimulatorProcess);
 }
 
+void FlightWatch::receive(const Plan& plan) {
+  ledger_.add(plan);
+  note(plan);
+}
+
 void FlightWatch::receive(const PlanTiming& timing) {
-  if (timings_filter_.is_first(timing.header.name)) replan_.add(timing);
+  if (!timings_filter_.is_first(timing.header.name)) return;
+  replan_.add(timing);
+  note(timing);
 }
 
 void FlightWatch::receive(const FlightResult& result, UTime now) {
@@ -119,6 +139,7 @@ LiveView FlightWatch::live() const {
   const Percentiles replan = percentiles(replan_.total);
   view.replan_p50_ms = replan.p50;
   view.replan_p99_ms = replan.p99;
+  view.pace = pace_.value_or(1.0);
   view.requests = ledger_.requests();
   view.answered_in_time = ledger_.answered_in_time();
   view.reason = ledger_.last_reason();
@@ -131,6 +152,10 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   FlightSummary summary;
   summary.outcome = ending.outcome;
   summary.detail = ending.detail;
+  const bool by_autopilot = !is_simulated(evidence_.status().mode);
+  summary.explanation =
+      explain(evidence_, {ending.outcome, ending.detail, result_, by_autopilot ? std::nullopt : pace_});
+  if (recording_.is_recorded()) summary.recording = recording_.gap();
   summary.scenario = scenario_.name;
   summary.seed = scenario_.seed;
   summary.count = scenario_.world.count;
@@ -152,6 +177,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.left_out = ledger_.left_out();
   summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::BroadPhase),
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};
+  summary.pace = pace_.value_or(1.0);
   summary.messages = processes_.messages();
   summary.restarts = processes_.restarts();
   summary.concurrent = processes_.concurrent();

@@ -15,8 +15,10 @@
 #include "core/world/scenario.h"
 #include "core/world/vehicle.h"
 #include "monitor/duplicate_filter.h"
+#include "monitor/flight_evidence.h"
 #include "monitor/flight_summary.h"
 #include "monitor/process_table.h"
+#include "monitor/recording_watch.h"
 #include "monitor/request_ledger.h"
 
 namespace tern {
@@ -43,7 +45,8 @@ struct LiveView {
   double nearest_m = 0.0;  ///< distance from the body's box to the nearest obstacle; NaN: none known
   /// Distance from the body's box to the map's occupied voxels; NaN: none known.
   double nearest_wall_m = std::numeric_limits<double>::quiet_NaN();
-  double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< over all answers so far; NaN: none
+  double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< over all answers so far, by the system's clock; NaN: none
+  double pace = 1.0;                                ///< seconds of flight per second of the system's clock
   std::int64_t requests = 0, answered_in_time = 0;
   PlanReason reason = PlanReason::None;  ///< of the newest plan
   std::int32_t left_out = 0;             ///< tracks missing in the predictions of the newest plan
@@ -75,13 +78,20 @@ class FlightWatch {
   void receive(const UavState& state);
   void receive(const Goal& goal);
   void receive(const HorizonRequest& request, UTime now);
-  void receive(const Plan& plan) { ledger_.add(plan); }
+  void receive(const Plan& plan);
   void receive(const PlanTiming& timing);
+  void receive(const VehicleStatus& status) { note(status); }
+  void receive(const TrackSet& predictions) { note(predictions); }
+  void receive(const ObservationSet& observations) { note(observations); }
+  void receive(const ConfigurationReport& report) { note(report); }
   void receive(const FlightResult& result, UTime now);
   /// @param obstacles  of a complete set
   void receive(std::vector<TrueObstacle> obstacles) { obstacles_ = std::move(obstacles); }
   /// @param occupied  the newest map's occupied voxels (cover_with_boxes())
   void receive_map(std::vector<Box> occupied) { occupied_ = std::move(occupied); }
+  /// Says that the flight's clocks can be slowed, and how fast they run (`--pace`). Without it no slower pace is
+  /// recommended.
+  void set_pace(double pace) { pace_ = pace; }
   /// Ends the flight for a reason outside the messages. The first reason stays.
   void fail(std::string detail);
 
@@ -95,12 +105,19 @@ class FlightWatch {
   [[nodiscard]] double nearest_wall() const;
   [[nodiscard]] std::int64_t simulator_epoch_us() const;
   [[nodiscard]] std::optional<std::string> failure(UTime now) const;
+  /// Messages after the verdict explain nothing.
+  void note(const auto& message) {
+    if (!result_) evidence_.receive(message);
+  }
 
   Scenario scenario_;
   Vec3 goal_;
   UTime began_;
   ProcessTable processes_;
   RequestLedger ledger_;
+  FlightEvidence evidence_;
+  RecordingWatch recording_;
+  std::optional<double> pace_;
   std::optional<UavState> state_;
   std::optional<HorizonRequest> first_request_;
   std::optional<UTime> first_request_at_;

@@ -21,8 +21,9 @@ std::string live_line(const LiveView& view, std::size_t columns) {
   std::string head = fmt::format("{:6.1f} s  {:3.0f} %  {:5.2f} m/s  nearest {} m", view.elapsed_s,
                                  view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2));
   if (!std::isnan(view.nearest_wall_m)) head += fmt::format(", wall {} m", number(view.nearest_wall_m, 2));
+  const std::string slowed = view.pace == 1.0 ? "" : fmt::format(" at pace {:g}", view.pace);
   const std::string replan =
-      fmt::format("  replan {}/{} ms", number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1));
+      fmt::format("  replan {}/{} ms{}", number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1), slowed);
   const std::string in_time = fmt::format("  in time {}/{}", view.answered_in_time, view.requests);
   std::string trouble;
   if (view.reason != PlanReason::None) trouble += fmt::format("  ({})", to_string(view.reason));

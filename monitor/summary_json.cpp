@@ -61,6 +61,11 @@ Json plans_by_confidence(const FlightSummary& summary) {
   return plans;
 }
 
+Json recording(const FlightSummary& summary) {
+  if (!summary.recording) return nullptr;
+  return summary.recording->empty() ? "complete" : "incomplete: " + *summary.recording;
+}
+
 Json exposure_by_region(const std::optional<FlightResult>& result) {
   Json regions = Json::object();
   if (!result) return regions;
@@ -83,6 +88,9 @@ std::string to_json(const FlightSummary& summary) {
   const Json json = {
       {"outcome", to_string(summary.outcome)},
       {"detail", summary.detail},
+      {"cause", to_string(summary.explanation.cause)},
+      {"why", summary.explanation.sentence},
+      {"recording", recording(summary)},
       {"scenario", summary.scenario},
       {"seed", known(summary.seed)},
       {"count", known(summary.count)},
@@ -113,6 +121,7 @@ std::string to_json(const FlightSummary& summary) {
       {"beside", Json(summary.concurrent)},
       {"log", summary.log.empty() ? Json(nullptr) : Json(summary.log)},
       {"command", summary.command.empty() ? Json(nullptr) : Json(summary.command)},
+      {"pace", summary.pace},
       {"version", summary.version},
   };
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

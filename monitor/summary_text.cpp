@@ -16,6 +16,20 @@ namespace {
 /// Most channels listed: those with lost or refused messages.
 constexpr int kTroubledChannels = 6;
 constexpr std::size_t kListedReasons = 4;
+constexpr std::size_t kColumns = 100;
+
+/// The text after a heading, in lines of at most kColumns; "" without a text.
+std::string wrapped(std::string_view heading, std::string_view text) {
+  std::string lines;
+  while (!text.empty()) {
+    const std::size_t room = kColumns - heading.size();
+    std::size_t end = text.size() <= room ? text.size() : text.rfind(' ', room);
+    if (end == std::string_view::npos || end == 0) end = std::min(room, text.size());
+    lines += fmt::format("{:<{}}{}\n", lines.empty() ? heading : "", heading.size(), text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
 
 /// The number with its unit, or a dash when there is none.
 std::string value(double x, std::string_view unit, int digits = 2) {
@@ -123,15 +137,21 @@ std::string message_lines(const FlightSummary& s) {
 
 }  // namespace
 
+int exit_code(const FlightSummary& s) {
+  const bool is_whole = !s.recording || s.recording->empty();
+  return s.outcome == FlightOutcome::Reached && !is_whole ? kExitIncomplete : static_cast<int>(s.outcome);
+}
+
 std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
-  const bool is_blocked = s.outcome == FlightOutcome::Timeout && s.reasons[idx(PlanReason::GoalBlocked)] > 0;
-  text += is_blocked ? "; the goal was blocked: tern-planner.log names the obstacle\n" : "\n";
+  text += "\n" + wrapped("  why           ", s.explanation.sentence);
+  if (s.recording && !s.recording->empty()) text += wrapped("  recording     ", "incomplete: " + *s.recording);
   text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));
   if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);
-  text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");
+  const std::string slowed = s.pace == 1.0 ? "" : fmt::format("   by the system's clock, at a pace of {:g}", s.pace);
+  text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}{}\n", "p50", "p95", "p99", "max", slowed);
   text += row("total", s.replan_ms.total) + row("first answer", s.replan_ms.first_answer) +
           row("broad phase", s.replan_ms.hulls) + row("search", s.replan_ms.search) +
           row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);

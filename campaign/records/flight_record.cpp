@@ -119,7 +119,7 @@ void add_measures(std::vector<Column>& columns) {
   };
   constexpr Compared kNo = Compared::No, kReached = Compared::Reached, kAll = Compared::All;
   add("outcome", "reached, collision, timeout or failed", kNo, &FlightResult::outcome);
-  add("detail", "in words: what was hit, which limit, what failed", kNo, &FlightResult::detail);
+  add("detail", "in words: why the goal was not reached, and what would help", kNo, &FlightResult::detail);
   add("flight_time_s", "world time at arrival or end, s", kReached, &FlightResult::flight_time_s);
   add("first_entry_s", "world time of the first entry into 0.2 m about the goal, s", kReached,
       &FlightResult::first_entry_s);
@@ -214,7 +214,8 @@ std::vector<Column> make_columns() {
              "at each confidence; claims: of plans, made and true at each",
              kNo, &R::coverage));
   columns.push_back(column("restarts", "restarts of processes in flight", kNo, &R::restarts));
-  columns.push_back(column("audit", "passed, broken, failed; empty: not audited", kNo, &R::audit));
+  columns.push_back(
+      column("audit", "passed, broken, incomplete, not judged, failed; empty: not audited", kNo, &R::audit));
   columns.push_back(column("log", "of a failed flight, relative to the failures' folder", kNo, &R::log));
   columns.push_back(
       column("charge", "cpu or counts: virtual time that planning took", kNo, &R::identity, &CampaignIdentity::charge));

@@ -54,7 +54,7 @@ struct FlightRecord {
   std::int64_t restarts = 0;
   Tracking tracking;
   Coverage coverage;  ///< of predictions, by the audit; empty without an audit
-  std::string audit;  ///< "passed", "broken", "failed"; "" without an audit
+  std::string audit;  ///< "passed", "broken", "incomplete", "not judged", "failed"; "" without an audit
   std::string log;    ///< of a failed flight, relative to the folder of failures
 };
 

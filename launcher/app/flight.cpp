@@ -141,7 +141,7 @@ void announce(const LaunchOptions& options, const fs::path& record, const std::v
 std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event) {
   if (event.process.empty()) return event.code;
   const bool is_monitor = event.process == kMonitor, has_summary = fs::exists(record / "summary.json");
-  if (is_monitor ? !has_summary : event.code != 0) {
+  if (is_monitor ? !has_summary && event.code != kExitIncomplete : event.code != 0) {
     const std::string words = last_line(read_text(record / (event.process + ".log")));
     give_up(record, fmt::format("{} ended with exit code {}: {}", event.process, event.code, words));
   }
@@ -319,7 +319,7 @@ int fly(const LaunchOptions& options) {
   int code = watch_over(options, *record);
   const bool is_played = options.view_fd && code < kExitSignalled && fs::exists(*record / "flight.lcm");
   const pid_t player = is_played ? play_again(options, *record) : 0;
-  const bool is_over = code <= kExitFailed || (options.allow_goals && code > kExitSignalled);
+  const bool is_over = code < kExitSignalled || (options.allow_goals && code > kExitSignalled);
   if (is_over && fs::exists(*record / "flight.lcm")) code = after_flight(options, *record, code);
   if (code > kExitSignalled) say("\nEnded by a signal; the record is in {}", record->string());
   const fs::path summary = *record / "summary.json";

@@ -10,7 +10,9 @@ int main(int argc, char** argv) {
       .name = "tern-monitor",
       .section = "",
       .summary =
-          "Shows a flight, judges its end and writes a summary. Exit code: 0 reached, 1 collision, 2 timeout, 3 failed",
+          "Shows a flight, judges its end and writes a summary. Exit code: 0 reached, 1 collision, 2 timeout, 3 "
+          "failed, "
+          "5 reached, but the recording is incomplete",
       .add_options = [&options](tern::CommandLine& app) {
         app.add_option("--summary", options.summary_file, "Write the summary as JSON")->type_name("FILE");
         app.add_option("--log", options.log, "Path of the recording, named in the summary")->type_name("FILE");

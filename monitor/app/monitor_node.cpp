@@ -28,6 +28,7 @@ MonitorNode::MonitorNode(Bus& bus, const Scenario& scenario, MonitorOptions opti
       watch_(scenario, bus.clock().now()),
       next_look_(bus.clock().now()),
       next_line_(next_look_ + output_.period()) {
+  watch_.set_pace(Duration{1'000'000}.seconds() / bus.clock().in_system_time(Duration{1'000'000}).seconds());
   check_summary_file();
   subscribe();
 }
@@ -59,8 +60,6 @@ void MonitorNode::subscribe() {
   // These are only counted.
   bus_.subscribe(channels::kSetpoint, [](const UavState&) {});
   bus_.subscribe(channels::kVehicleTruth, [](const UavState&) {});
-  bus_.subscribe(channels::kVehicleStatus, [](const VehicleStatus&) {});
-  bus_.subscribe(channels::kConfiguration, [](const ConfigurationReport&) {});
 }
 
 void MonitorNode::step(UTime now) {
@@ -89,10 +88,11 @@ void MonitorNode::finish(const Ending& ending) {
   summary.command = options_.command;
   summary.version = build_id();
   output_.print(to_text(summary));
-  exit_code_ = static_cast<int>(summary.outcome);
-  if (!options_.summary_file.empty() && !write_text(options_.summary_file, to_json(summary))) {
-    spdlog::error("{}: the summary cannot be written", options_.summary_file);
-  }
+  exit_code_ = exit_code(summary);
+  if (options_.summary_file.empty() || write_text(options_.summary_file, to_json(summary))) return;
+  // The process's own log may be on the same full disk.
+  output_.print(options_.summary_file + ": the summary could not be written as a whole\n");
+  if (exit_code_ == 0) exit_code_ = kExitIncomplete;
 }
 
 }  // namespace tern

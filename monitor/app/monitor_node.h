@@ -22,7 +22,7 @@ struct MonitorOptions {
 };
 
 /// Receives the channels by which it judges, and those that no other process counts. Finishes with the outcome as exit
-/// code: 0 reached, 1 collision, 2 timeout, 3 failed.
+/// code (flight_summary.h).
 class MonitorNode final : public Node {
  public:
   /// @throws ConfigError if the summary's file cannot be written

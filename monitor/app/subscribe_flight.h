@@ -8,12 +8,15 @@
 
 namespace tern {
 
-/// Hands `watch` all messages by which it judges; not OBSTACLE_TRUTH, which is only shown. Both must outlive the bus's
-/// deliveries.
+/// The channels by which a FlightWatch judges; not OBSTACLE_TRUTH, which is only shown.
+inline constexpr std::tuple kJudgedChannels{
+    channels::kHeartbeat,   channels::kConfiguration,       channels::kUavState,
+    channels::kGoal,        channels::kVehicleStatus,       channels::kHorizonRequest,
+    channels::kPlan,        channels::kPlanTiming,          channels::kFlightResult,
+    channels::kPredictions, channels::kObstacleObservations};
+
+/// Hands `watch` all messages by which it judges. Both must outlive the bus's deliveries.
 inline void subscribe_flight(Bus& bus, FlightWatch& watch) {
-  constexpr std::tuple kJudged{channels::kHeartbeat,      channels::kUavState, channels::kGoal,
-                               channels::kHorizonRequest, channels::kPlan,     channels::kPlanTiming,
-                               channels::kFlightResult};
   const auto subscribe = [&]<class T>(const Channel<T>& channel) {
     bus.subscribe(channel, [&bus, &watch](const T& message) {
       if constexpr (requires { watch.receive(message, UTime{}); }) {
@@ -23,7 +26,7 @@ inline void subscribe_flight(Bus& bus, FlightWatch& watch) {
       }
     });
   };
-  for_each_channel(subscribe, kJudged);
+  for_each_channel(subscribe, kJudgedChannels);
 }
 
 }  // namespace tern

@@ -59,7 +59,7 @@ void AnswerDesk::send_incumbent(UTime now) {
   plan.standing = open_->improvements;
   PlanTiming timing;
   timing.request_id = plan.request_id;
-  timing.total_ms = (now - open_->arrived).seconds() * 1e3;
+  timing.total_ms = bus_.clock().in_system_time(now - open_->arrived).seconds() * 1e3;
   timing.first_answer_ms = timing.total_ms;
   timing.from_watchdog = true;
   send(std::move(plan), timing);

@@ -111,7 +111,7 @@ void PlannerNode::deliver_delayed(UTime now) {
 
 NodeHealth PlannerNode::health() const {
   const std::string missing = intake_.missing();
-  if (missing.empty()) return {ProcessState::Ready, ""};
+  if (missing.empty()) return {ProcessState::Ready, intake_.blocked()};
   return {ProcessState::Waiting, missing};
 }
 

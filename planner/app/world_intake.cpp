@@ -1,5 +1,6 @@
 #include "planner/app/world_intake.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <utility>
@@ -36,6 +37,11 @@ std::string WorldIntake::missing() const {
   if (!newest_goal_) return "a goal";
   if (!world.goal) return "the goal's distance field (in preparation)";
   return "";
+}
+
+std::string WorldIntake::blocked() const {
+  const std::lock_guard lock(mutex_);
+  return blocked_;
 }
 
 void WorldIntake::set_vehicle(const HorizonRequest& request) {
@@ -113,6 +119,11 @@ void WorldIntake::publish(std::int64_t number, std::shared_ptr<const GoalProduct
   ready_.goal = std::move(goal);
 }
 
+void WorldIntake::note_blocked(std::string blocked) {
+  const std::lock_guard lock(mutex_);
+  blocked_ = std::move(blocked);
+}
+
 void WorldIntake::start(std::function<void()> job) {
   if (worker_ == nullptr) return job();
   worker_->try_start(std::move(job));
@@ -137,9 +148,12 @@ void WorldIntake::prepare() {
   start([this, number = goal_number_, goal = *newest_goal_, key, names, map = world.map, boxes = statics_.boxes(),
          at = position_] {
     auto field = std::make_shared<const GoalField>(make_goal_field(key, map, boxes, at));
+    std::string blocked;
     if (!field->path_from(at)) {
-      spdlog::warn("goal {} is blocked: {}", goal.id, blocked_goal_text(*field, key, boxes, at, places_));
+      blocked = fmt::format("goal {} is blocked: {}", goal.id, blocked_goal_text(*field, key, boxes, at, places_));
+      spdlog::warn("{}", blocked);
     }
+    note_blocked(std::move(blocked));
     publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names}));
   });
 }

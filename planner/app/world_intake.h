@@ -44,6 +44,8 @@ class WorldIntake {
   [[nodiscard]] PlanningWorld snapshot() const;
   /// Returns the missing input as text, or "" if a plan can be made.
   [[nodiscard]] std::string missing() const;
+  /// Returns why no path led to the newest goal when its field was made: "goal 1 is blocked: …"; "" if one did.
+  [[nodiscard]] std::string blocked() const;
   /// Starts the preparation that the newest messages require, unless one is running.
   void prepare();
   /// Sets the vehicle that requests describe: paths are made for its body and flight box from then on. A new sender
@@ -59,6 +61,7 @@ class WorldIntake {
   void forget_before(std::int64_t epoch_us);
   void publish_goal_to_hold();
   void publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal);
+  void note_blocked(std::string blocked);
   void start(std::function<void()> job);
   void make_map(const VoxelMap& map);
 
@@ -78,9 +81,10 @@ class WorldIntake {
   Vec3 position_;        ///< of the vehicle, W
   MessageName vehicle_;  ///< the request that described the vehicle last; none: as configured
 
-  mutable std::mutex mutex_;  ///< guards ready_ and ready_number_
+  mutable std::mutex mutex_;  ///< guards ready_, ready_number_ and blocked_
   PlanningWorld ready_;
-  std::int64_t ready_number_ = 0;   ///< the goal_number_ of ready_.goal
+  std::int64_t ready_number_ = 0;  ///< the goal_number_ of ready_.goal
+  std::string blocked_;
   std::unique_ptr<Worker> worker_;  ///< null: prepare at once. Last member: its job uses the others
 };
 

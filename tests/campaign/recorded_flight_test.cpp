@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "flight_log/flight_log.h"
 #include "messages/codec.h"
 #include "runtime/config.h"
 #include "tests/support/temp_folder.h"
+#include "tools/audit/app/load_flight.h"
 
 namespace tern {
 namespace {
@@ -55,6 +58,49 @@ TEST(RecordedFlight, TheLogHoldsEveryRequestWithItsAnswerInVirtualTime) {
   EXPECT_EQ(requests, flown.requests);
   EXPECT_EQ(static_cast<std::int64_t>(answers.size()), flown.requests);
   EXPECT_EQ(contents->channels.at("PLAN").lost, 0);
+}
+
+/// A flight that fails, and what a person must read of it.
+struct Failed {
+  std::vector<std::string> overrides;
+  std::string cause, words;
+};
+
+TEST(RecordedFlight, OneSentenceSaysWhyInSummaryAndTableAndOfTheLog) {
+  const std::string wall = "world.obstacles=[{name: gate, centre: [2, 0, 2], half_extents: [0.3, 8, 8]}]";
+  const std::vector<Failed> flights{
+      {{"timeout_s=1.0"}, "time too short", "was on its way"},
+      {{"world.generator=none", wall}, "goal blocked", "'gate'"},
+      {{"uav.goal=[4, 2.5, 1]", "executor.tube_m=0.3"}, "goal blocked", "inside the box less a tube of 0.3 m"},
+      {{"uav.goal=[4, 2.9, 1]"}, "goal blocked", "not inside the flight box less the body"},
+      {{"simulator.declare=false", "simulator.sensor.mode=noisy", "simulator.sensor.latency_s=0.4"},
+       "stale world",
+       "sensor 0.40 s late, limit 0.3"},
+      {{"world.generator=none", "world.obstacles=[{name: crate, centre: [0, 0, 1], half_extents: [1, 1, 1]}]"},
+       "contact",
+       "the start lies in obstacle 0 'crate'"},
+  };
+  for (const Failed& flight : flights) {
+    const TempFolder folder;
+    std::vector<std::string> overrides = flight.overrides;
+    if (overrides.front() != "timeout_s=1.0") overrides.emplace_back("timeout_s=4.0");
+    const FlightRecord flown = fly(short_hop(Charge::Counts, overrides), 1, folder);
+    const auto summary = nlohmann::json::parse(std::ifstream(folder.file("summary.json")));
+    EXPECT_EQ(summary["cause"], flight.cause) << summary["why"];
+    EXPECT_NE(summary["why"].get<std::string>().find(flight.words), std::string::npos) << summary["why"];
+    EXPECT_EQ(flown.result.detail, summary["why"]);
+    EXPECT_EQ(audit::load_flight(folder.file("flight.lcm")).value().why, summary["why"]);
+  }
+}
+
+TEST(RecordedFlight, AnAuditKeepsTheNamesOfObstacles) {
+  const TempFolder folder;
+  fly(short_hop(Charge::Counts,
+                {"timeout_s=1.0", "world.obstacles=[{name: gate, centre: [2, 9, 2]}, {centre: [2, -9, 2]}]"}),
+      1, folder);
+  const audit::FlightRecord record = audit::load_flight(folder.file("flight.lcm")).value();
+  EXPECT_EQ(record.name_of(3), "obstacle 3 'gate'") << "after the generator's three";
+  EXPECT_EQ(record.name_of(4), "obstacle 4");
 }
 
 TEST(RecordedFlight, AChargedPlanArrivesWhenItsCpuTimeIsOver) {

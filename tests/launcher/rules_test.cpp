@@ -44,6 +44,9 @@ TEST(FlightExitCode, IsTheMonitorsIfItWroteASummary) {
     EXPECT_EQ(code_after_flight(code, false), kExitFailed);
   }
   for (const int code : {70, 127, 137}) EXPECT_EQ(code_after_flight(code, true), kExitFailed);
+  for (const bool has_summary : {false, true}) {
+    EXPECT_EQ(code_after_flight(kExitIncomplete, has_summary), kExitIncomplete) << "a full disk takes no summary";
+  }
 }
 
 TEST(FlightExitCode, OfABrokenAuditGivesWayToACollision) {
@@ -53,6 +56,13 @@ TEST(FlightExitCode, OfABrokenAuditGivesWayToACollision) {
   EXPECT_EQ(code_after_audit(kExitFailed, 1), kExitFailed);
   EXPECT_EQ(code_after_audit(2, 1), kExitBroken);
   for (const int no_audit : {2, 70, 139}) EXPECT_EQ(code_after_audit(0, no_audit), kExitFailed);
+}
+
+TEST(FlightExitCode, OfAFlightThatTheAuditCouldNotJudgeAsAWholeIsNeverZero) {
+  for (const int part : {3, 4}) {
+    EXPECT_EQ(code_after_audit(0, part), kExitIncomplete);
+    for (const int code : {1, 2, kExitFailed, kExitIncomplete, 130}) EXPECT_EQ(code_after_audit(code, part), code);
+  }
 }
 
 }  // namespace

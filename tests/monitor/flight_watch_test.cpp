@@ -287,5 +287,55 @@ TEST(FlightWatch, SummaryNamesTheScenario) {
   EXPECT_FALSE(summary.result);
 }
 
+Heartbeat logger(double seconds, ProcessState state = ProcessState::Ready, const std::string& says = "") {
+  Heartbeat heartbeat;
+  heartbeat.process = kLoggerProcess;
+  heartbeat.header = {{99, 1}, kStart + Duration::from_seconds(seconds)};
+  heartbeat.state = state;
+  heartbeat.waiting_for = says;
+  return heartbeat;
+}
+
+TEST(FlightWatch, ARecordingIsIncompleteFromTheFirstMessageThatIsNotInTheLog) {
+  FlightWatch watch(scenario(), kStart);
+  EXPECT_FALSE(watch.summary({}).recording) << "no logger was heard";
+  watch.receive(logger(0.0), kStart);
+  watch.receive(logger(0.5), kStart);
+  EXPECT_EQ(watch.summary({}).recording, "");
+  watch.receive(logger(1.0, ProcessState::Failed, "the disk is full"), kStart);
+  EXPECT_EQ(watch.live().waiting, "tern-logger: the disk is full") << "the live line says so at once";
+  watch.receive(logger(1.5), kStart);
+  EXPECT_EQ(watch.summary({}).recording, "the disk is full");
+}
+
+TEST(FlightWatch, ARecordingByALoggerThatDiedOrWasAwayIsIncomplete) {
+  FlightWatch dead(scenario(), kStart), away(scenario(), kStart), restarted(scenario(), kStart);
+  for (FlightWatch* watch : {&dead, &away, &restarted}) watch->receive(logger(0.0), kStart);
+  restarted.receive(logger(2.0), kStart);
+  away.receive(logger(4.0), kStart);
+  Heartbeat last = simulator(1);
+  last.header.utime = kStart + Duration{4'000'000};
+  for (FlightWatch* watch : {&dead, &away, &restarted}) watch->receive(last, kStart);
+  EXPECT_EQ(dead.summary({}).recording, "tern-logger was silent for 4.0 s");
+  EXPECT_EQ(away.summary({}).recording, "tern-logger was silent for 4.0 s");
+  EXPECT_EQ(restarted.summary({}).recording, "") << "four heartbeats may be lost";
+}
+
+TEST(FlightWatch, WhatComesAfterTheVerdictExplainsNothing) {
+  FlightWatch watch(scenario(), kStart);
+  watch.receive(simulator(5), kStart);
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  watch.receive(state(Vec3(0, 0, 1), Vec3(2, 0, 0), kStart));
+  FlightResult result = verdict_of(5, FlightOutcome::Collision);
+  result.detail = "touched obstacle 3 at 0.100 s";
+  result.contacts_moving = 1;
+  watch.receive(result, kStart);
+  watch.receive(state(Vec3(0, 0, 1), Vec3::Zero(), kStart + Duration{500'000}));
+  EXPECT_EQ(watch.summary({result.outcome, result.detail})
+                .explanation.sentence.find("touched obstacle 3 at 0.100 s, flying at 2.0 m/s"),
+            0U);
+}
+
 }  // namespace
 }  // namespace tern

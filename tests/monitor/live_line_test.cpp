@@ -22,6 +22,15 @@ TEST(LiveLine, ShowsWhatAPersonWantsToKnow) {
             "   6.4 s   48 %   5.93 m/s  nearest 0.72 m  replan 4.1/12.3 ms (p50/p99)  in time 127/128");
 }
 
+TEST(LiveLine, OfASlowedFlightSaysItsPaceBesideTheTimesOfTheSystemsClock) {
+  LiveView view;
+  view.flying = true;
+  view.replan_p50_ms = 8.2;
+  view.replan_p99_ms = 24.6;
+  view.pace = 0.5;
+  EXPECT_NE(live_line(view).find("replan 8.2/24.6 ms at pace 0.5 (p50/p99)"), std::string::npos) << live_line(view);
+}
+
 TEST(LiveLine, ShowsTheNearestWallWhereAMapHasOne) {
   LiveView view;
   view.flying = true;

@@ -47,13 +47,13 @@ FlightSummary flown() {
 
 TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   const json summary = json::parse(to_json(flown()));
-  EXPECT_THAT(keys(summary),
-              testing::UnorderedElementsAre(
-                  "outcome", "detail", "scenario", "seed", "count", "settings", "flight_time_s", "first_entry_s",
-                  "path_length_m", "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m", "min_map_clearance_m",
-                  "limit_violations", "contacts_moving", "contacts_at_rest", "obstacles", "obstacles_left_out",
-                  "requests", "answered_in_time", "second_answers", "plans", "confidence", "left_out", "replan_ms",
-                  "exposure", "messages", "restarts", "beside", "log", "command", "version"));
+  EXPECT_THAT(keys(summary), testing::UnorderedElementsAre(
+                                 "outcome", "detail", "cause", "why", "recording", "scenario", "seed", "count",
+                                 "settings", "flight_time_s", "first_entry_s", "path_length_m", "mean_speed_mps",
+                                 "top_speed_mps", "stops", "min_clearance_m", "min_map_clearance_m", "limit_violations",
+                                 "contacts_moving", "contacts_at_rest", "obstacles", "obstacles_left_out", "requests",
+                                 "answered_in_time", "second_answers", "plans", "confidence", "left_out", "replan_ms",
+                                 "exposure", "messages", "restarts", "beside", "log", "command", "pace", "version"));
   EXPECT_THAT(keys(summary["settings"]),
               testing::UnorderedElementsAre("lambda_attractive", "lambda_repulsive", "v_max", "a_max", "j_max"));
   EXPECT_THAT(keys(summary["replan_ms"]),
@@ -144,16 +144,47 @@ TEST(Summary, SaysHowManyPlansWereLessSureThanPromised) {
       (json{{"promised", 200}, {"0.95", 10}, {"0.9", 9}, {"0.8", 8}, {"0.6", 7}, {"for_a_time", 5}, {"below", 6}}));
 }
 
-TEST(Summary, SaysWhereABlockedGoalIsExplained) {
+TEST(Summary, SaysWhyBelowTheOutcome) {
   FlightSummary s = flown();
   s.outcome = FlightOutcome::Timeout;
   s.detail = "9 m from the goal";
-  EXPECT_THAT(to_text(s), testing::StartsWith("timeout: 9 m from the goal\n"));
-  s.reasons[idx(PlanReason::GoalBlocked)] = 120;
+  s.explanation = {Cause::StaleWorld,
+                   "stood since 4.0 s: 160 answers *stale world*, sensor 0.28 s late, limit 0.3: a "
+                   "faster sensor or a larger planner.stale_after_s would help"};
   EXPECT_THAT(to_text(s),
-              testing::StartsWith("timeout: 9 m from the goal; the goal was blocked: tern-planner.log names"));
-  s.outcome = FlightOutcome::Collision;
-  EXPECT_THAT(to_text(s), Not(testing::HasSubstr("the goal was blocked"))) << "that is not why it ended";
+              testing::StartsWith(
+                  "timeout: 9 m from the goal\n"
+                  "  why           stood since 4.0 s: 160 answers *stale world*, sensor 0.28 s late, limit 0.3: a\n"
+                  "                faster sensor or a larger planner.stale_after_s would help\n"));
+  const json summary = json::parse(to_json(s));
+  EXPECT_EQ(summary["cause"], "stale world");
+  EXPECT_EQ(summary["why"], s.explanation.sentence);
+}
+
+TEST(Summary, OfAnIncompleteRecordingSaysSoAndIsNoSuccess) {
+  FlightSummary s = flown();
+  EXPECT_TRUE(json::parse(to_json(s))["recording"].is_null()) << "no logger was heard";
+  EXPECT_EQ(exit_code(s), 0);
+  s.recording = "";
+  EXPECT_EQ(json::parse(to_json(s))["recording"], "complete");
+  EXPECT_EQ(exit_code(s), 0);
+  EXPECT_THAT(to_text(s), Not(testing::HasSubstr("recording")));
+  s.recording = "132 messages are not in the log: flight.lcm: No space left on device";
+  EXPECT_EQ(json::parse(to_json(s))["recording"], "incomplete: " + *s.recording);
+  EXPECT_EQ(exit_code(s), kExitIncomplete);
+  EXPECT_THAT(to_text(s), testing::HasSubstr("  recording     incomplete: 132 messages are not in the log"));
+  for (const FlightOutcome outcome : {FlightOutcome::Collision, FlightOutcome::Timeout, FlightOutcome::Failed}) {
+    s.outcome = outcome;
+    EXPECT_EQ(exit_code(s), static_cast<int>(outcome));
+  }
+}
+
+TEST(Summary, OfASlowedFlightSaysByWhichClockReplanningIsMeasured) {
+  FlightSummary s = flown();
+  EXPECT_THAT(to_text(s), Not(testing::HasSubstr("pace")));
+  s.pace = 0.5;
+  EXPECT_THAT(to_text(s), testing::HasSubstr("max   by the system's clock, at a pace of 0.5\n"));
+  EXPECT_EQ(json::parse(to_json(s))["pace"], 0.5);
 }
 
 TEST(Summary, TellsAPersonTheOutcomeFirst) {
