@@ -29,7 +29,7 @@ DOUBLES = [0.0, -0.0, 5e-324, 1e-320, 1e-300, 1e-9, 1e-3, 0.01, 1.0, 1e3, 1e6, 1
 INTEGERS = [0, 1, -1, 1000, 100_000_000, 2**31 - 1, 2**40, 2**62, 2**63 - 1, -(2**63), 4 * 10**15]
 PROGRAMS = {  # arguments after the log, and the exit codes that mean something
     "tern-replay": (["--json", "{out}/replay.json"], {0, 1, 2, 3}),
-    "tern-audit": (["--json", "{out}/audit.json"], {0, 1, 2}),
+    "tern-audit": (["--json", "{out}/audit.json"], {0, 1, 2, 3, 4}),
     "tern-report": (["-o", "{out}/report.html"], {0, 2}),
     "tern-export": (["--csv", "{out}/csv", "--mcap", "{out}/flight.mcap"], {0, 2}),
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "flight_log/log_reader.h"
 #include "messages/codec.h"
 #include "tests/support/recorded_flight.h"
 #include "tests/support/temp_folder.h"
@@ -274,8 +275,87 @@ TEST_F(AuditOfALog, WithoutDeclaredMotionsStatesTheClearanceAtTheSamples) {
   EXPECT_THAT(text(audited), HasSubstr("their motion was not declared"));
 }
 
+/// Appends an event as it stands in a log, with its number.
+void put_event(std::string& bytes, const LogEvent& event) {
+  const auto put = [&bytes](std::uint64_t value, int count) {
+    for (int k = count - 1; k >= 0; --k) bytes.push_back(static_cast<char>(value >> static_cast<unsigned>(8 * k)));
+  };
+  put(kLogSyncWord, 4);
+  put(static_cast<std::uint64_t>(event.number), 8);
+  put(static_cast<std::uint64_t>(event.received_us), 8);
+  put(event.channel.size(), 4);
+  put(event.data.size(), 4);
+  bytes += event.channel;
+  bytes.append(event.data.begin(), event.data.end());
+}
+
 int run_program(const std::string& arguments) {
   return WEXITSTATUS(std::system((std::string(TERN_AUDIT_PROGRAM) + " " + arguments + " >/dev/null 2>&1").c_str()));
+}
+
+TEST_F(AuditOfALog, OfAPartIsIncompleteAndSaysFromWhenToWhenTheLogReaches) {
+  const std::string begun = another_file(), late = another_file(), away = another_file();
+  testing::copy_part_of_log(good(), begun, 0, at_us(1.2));
+  testing::copy_part_of_log(good(), late, at_us(2.0), INT64_MAX);
+  testing::copy_log_without(good(), away, at_us(2.0), at_us(3.2));
+  const std::vector<std::pair<std::string, std::string>> parts{
+      {begun, "the flight's end: the log ends at 1.20 s without FLIGHT_RESULT"},
+      {late, "the flight's beginning: the first request in the log is number"},
+      {away, "all messages from 2.00 to 3.20 s"}};
+  for (const auto& [log, gap] : parts) {
+    const Audit part = audit(log);
+    EXPECT_EQ(part.verdict(), Verdict::Incomplete) << text(part);
+    EXPECT_THAT(text(part), HasSubstr("Not in the log:\n  " + gap));
+    EXPECT_THAT(text(part), HasSubstr("INCOMPLETE: nothing is broken in the part of the flight that the log holds; it "
+                                      "reaches from "));
+    EXPECT_EQ(to_json(part, read_)["verdict"], "incomplete");
+    EXPECT_THAT(to_json(part, read_)["reaches"]["gaps"][0].get<std::string>(), HasSubstr(gap));
+    EXPECT_EQ(run_program(log), 3);
+  }
+  EXPECT_THAT(text(audit(late)), HasSubstr(" of a flight of ")) << "FLIGHT_RESULT says how long it was";
+}
+
+TEST_F(AuditOfALog, OfATruncatedFileIsIncompleteAndTheSummaryBesideItSaysOfHowMuch) {
+  const TempFolder flight;
+  std::ifstream whole(good(), std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(whole), {});
+  std::ofstream(flight.file("flight.lcm"), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  std::ofstream(flight.file("summary.json")) << R"({"log": "/r/flight.lcm", "flight_time_s": 13.25})";
+  const Audit part = audit(flight.file("flight.lcm"));
+  EXPECT_EQ(part.verdict(), Verdict::Incomplete);
+  EXPECT_THAT(text(part), HasSubstr(" s of a flight of 13.25 s"));
+}
+
+TEST_F(AuditOfALog, WithMessagesThatTheLoggerCouldNotWriteIsIncomplete) {
+  const std::string log = another_file();
+  auto reader = LogReader::open(good()).value();
+  std::string bytes;
+  for (int k = 0; auto event = reader.next(); ++k) {
+    if (k == 4000) reader.next();  // its number is missing then, as after a write that failed
+    put_event(bytes, *event);
+  }
+  std::ofstream(log, std::ios::binary) << bytes;
+  const Audit part = audit(log);
+  EXPECT_EQ(part.verdict(), Verdict::Incomplete) << text(part);
+  EXPECT_THAT(text(part), HasSubstr("1 messages which tern-logger could not write"));
+
+  const std::string said = with<Heartbeat>(good(), channels::kHeartbeat.name, [](Heartbeat& heartbeat) {
+    if (heartbeat.process != "tern-planner") return true;
+    heartbeat.process = "tern-logger";
+    heartbeat.state = ProcessState::Failed;
+    heartbeat.waiting_for = "132 messages are not in the log";
+    return true;
+  });
+  EXPECT_EQ(audit(said).verdict(), Verdict::Incomplete);
+}
+
+TEST_F(AuditOfALog, OfAFlightThatNeverBeganIsNotJudged) {
+  const std::string log = another_file();
+  testing::copy_part_of_log(good(), log, 0, record_->requests.front().header.utime.us);
+  const Audit nothing = audit(log);
+  EXPECT_EQ(nothing.verdict(), Verdict::NotJudged) << text(nothing);
+  EXPECT_THAT(text(nothing), HasSubstr("NOT JUDGED: the flight never began"));
+  EXPECT_EQ(run_program(log), 4);
 }
 
 std::string colliding(FlightResult& r) {

@@ -166,6 +166,15 @@ FlightRecord long_flight() {
   return record;
 }
 
+TEST(Report, OfASlowedFlightHasDeadlinesAndAnswerTimesOnOneScale) {
+  FlightRecord record = long_flight();
+  for (const double pace : {1.0, 0.5}) {
+    const nlohmann::json answers = data_in(report_page(record, Audit{}, {.pace = pace}))["answers"];
+    EXPECT_NEAR(answers["deadline"][0], 70.0 / pace, 1e-9) << "by the system's clock, as PLAN_TIMING";
+    EXPECT_NEAR(answers["total"][0], record.timings.front().total_ms, 1e-3);
+  }
+}
+
 TEST(Report, OfFiveMinutesAmong300MoversStaysUnder5MegabytesAndHidesNoExtreme) {
   const FlightRecord record = long_flight();
   Audit audit;

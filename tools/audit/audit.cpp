@@ -96,6 +96,22 @@ std::string words(Collision collision) {
   return "";
 }
 
+/// Returns the last line.
+std::string verdict_line(const Audit& audit, const FlightRecord& record) {
+  switch (audit.verdict()) {
+    case Verdict::Broken: return "BROKEN" + words(audit.collision);
+    case Verdict::Incomplete:
+      return fmt::format("INCOMPLETE: nothing is broken in the part of the flight that the log holds; {}{}",
+                         to_text(audit.span), words(audit.collision));
+    case Verdict::NotJudged: {
+      const bool never = !audit.span.began && audit.span.flight_s.value_or(0.0) == 0.0;
+      const std::string why = record.why.empty() ? "the flight never began" : record.why;
+      return "NOT JUDGED: " + (never ? why : "the log holds too little of the flight; " + to_text(audit.span));
+    }
+    default: return to_string(audit.verdict()) + words(audit.collision);
+  }
+}
+
 /// Returns the obstacle that the vehicle collided with. Empty after a collision with the map, or without a state near
 /// enough.
 std::optional<Contact> contact_of(const FlightRecord& record, const Audit& audit) {
@@ -139,7 +155,7 @@ nlohmann::json by_age_json(const ByAge& by_age) {
 }  // namespace
 
 const char* to_string(Verdict verdict) {
-  constexpr std::array kNames{"held", "broken", "not checked"};
+  constexpr std::array kNames{"held", "broken", "not checked", "incomplete", "not judged"};
   return kNames[idx(verdict)];
 }
 
@@ -151,7 +167,8 @@ const char* to_string(Collision collision) {
 Verdict Audit::verdict() const {
   const auto is = [&](Verdict v) { return [v](const Check& c) { return c.verdict() == v; }; };
   if (std::any_of(checks.begin(), checks.end(), is(Verdict::Broken))) return Verdict::Broken;
-  return std::any_of(checks.begin(), checks.end(), is(Verdict::Held)) ? Verdict::Held : Verdict::NotChecked;
+  if (!span.began || std::none_of(checks.begin(), checks.end(), is(Verdict::Held))) return Verdict::NotJudged;
+  return span.gaps.empty() ? Verdict::Held : Verdict::Incomplete;
 }
 
 const Check& Audit::check(const std::string& name) const {
@@ -162,6 +179,7 @@ const Check& Audit::check(const std::string& name) const {
 
 Audit audit_flight(const FlightRecord& record) {
   Audit audit;
+  audit.span = span_of(record);
   audit.missing = what_is_missing(record);
   for (std::string& what : named_and_missing(record)) audit.missing.push_back(std::move(what));
   audit.missing.insert(audit.missing.end(), record.other_flights.begin(), record.other_flights.end());
@@ -184,6 +202,7 @@ Audit audit_flight(const FlightRecord& record) {
 std::string to_text(const Audit& audit, const FlightRecord& record) {
   std::string text = fmt::format("Audit of {}: {:.2f} s, {} requests, {} plans\n\n", record.path,
                                  (record.end() - record.zero()).seconds(), record.requests.size(), record.plans.size());
+  if (!record.why.empty()) text += fmt::format("Why the goal was not reached: {}\n\n", record.why);
   for (const Check& check : audit.checks) {
     const Verdict verdict = check.verdict();
     text += fmt::format("  {:<12} {:<13} {}\n", verdict == Verdict::Broken ? "BROKEN" : to_string(verdict), check.name,
@@ -206,8 +225,9 @@ std::string to_text(const Audit& audit, const FlightRecord& record) {
     for (const auto& [what, n] : check.unchecked) gaps += fmt::format("  {}: {} ({})\n", check.name, what, n);
   }
   text += gaps.empty() ? "\nNothing was left unchecked.\n" : "\nCould not be checked, or only in part:\n" + gaps;
-  const std::string verdict = audit.verdict() == Verdict::Broken ? "BROKEN" : to_string(audit.verdict());
-  return text + "\n" + verdict + words(audit.collision) + "\n";
+  if (!audit.span.gaps.empty()) text += "\nNot in the log:\n";
+  for (const std::string& gap : audit.span.gaps) text += fmt::format("  {}\n", gap);
+  return text + "\n" + verdict_line(audit, record) + "\n";
 }
 
 nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
@@ -245,6 +265,8 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
       {"verdict", to_string(audit.verdict())},
       {"collision", to_string(audit.collision)},
       {"flight_s", (record.end() - record.zero()).seconds()},
+      {"why", record.why},
+      {"reaches", {{"from_s", audit.span.from_s}, {"to_s", audit.span.to_s}, {"gaps", audit.span.gaps}}},
       {"checks", checks},
       {"missing", audit.missing},
       {"coverage", coverage_json(audit)},
@@ -252,6 +274,7 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
       {"by_age", {{"moving", by_age_json(audit.moving_by_age)}, {"at rest", by_age_json(audit.rest_by_age)}}},
       {"tracks", tracks},
       {"confidence", audit.promised_confidence}};
+  for (const auto& [id, name] : record.obstacle_names) all["names"][std::to_string(id)] = name;
   if (audit.contact) all["contact"] = to_json(*audit.contact, record);
   return all;
 }

@@ -11,6 +11,7 @@
 #include "tools/audit/check.h"
 #include "tools/audit/contact.h"
 #include "tools/audit/flight_record.h"
+#include "tools/audit/span.h"
 
 namespace tern::audit {
 
@@ -61,6 +62,7 @@ const char* to_string(Collision collision);
 
 struct Audit {
   std::vector<Check> checks;
+  LogSpan span;                      ///< the part of the flight that the log holds
   std::vector<std::string> missing;  ///< the messages that the log lacks, in words
   std::vector<ClearancePoint> clearance;
   std::vector<TubePoint> tube;

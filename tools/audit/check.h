@@ -24,8 +24,12 @@ struct Finding {
 /// A check stores its first kMaxFindings findings and counts the others.
 inline constexpr std::size_t kMaxFindings = 50;
 
-enum class Verdict { Held, Broken, NotChecked };
-/// Returns "held", "broken" or "not checked".
+/// A check has one of the first three. The verdict on a flight is Held, Broken, or one of the last two:
+///
+/// * Incomplete: all is well in the part of the flight that the log holds.
+/// * NotJudged: the log holds no flight, or too little of one.
+enum class Verdict { Held, Broken, NotChecked, Incomplete, NotJudged };
+/// Returns the verdict in lower-case words.
 const char* to_string(Verdict verdict);
 
 struct Check {

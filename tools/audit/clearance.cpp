@@ -202,13 +202,10 @@ std::int64_t count_passers(const FlightRecord& record, const Window& window, con
   return count;
 }
 
-/// Names an obstacle: "obstacle 3", or "box 0 of the map" (−1 − k is the k-th box, as in a certificate).
+/// The word for all obstacles, and whether they are boxes of the map (−1 − k is the k-th, as in a certificate).
 struct Names {
   const char* all;
   bool of_map;
-  [[nodiscard]] std::string operator()(std::int64_t id) const {
-    return of_map ? fmt::format("box {} of the map", -1 - id) : fmt::format("obstacle {}", id);
-  }
 };
 
 /// Collects the results of all obstacles.
@@ -216,6 +213,10 @@ class Verdicts {
  public:
   Verdicts(const FlightRecord& record, Check& check, Names names = {"obstacles", false})
       : record_(record), check_(check), names_(names) {}
+
+  [[nodiscard]] std::string name_of(std::int64_t id) const {
+    return names_.of_map ? fmt::format("box {} of the map", -1 - id) : record_.name_of(id);
+  }
 
   /// Sets how many obstacles surely existed; the other checked ones possibly did.
   void count(std::int64_t surely) { surely_ = surely; }
@@ -232,7 +233,7 @@ class Verdicts {
     }
     if (a.proven.high < 0.0) {
       const Closest& c = a.proven;
-      check_.fail({c.at, fmt::format("overlaps {} by {:.3f} m", names_(c.obstacle), -c.high), 0, c.obstacle});
+      check_.fail({c.at, fmt::format("overlaps {} by {:.3f} m", name_of(c.obstacle), -c.high), 0, c.obstacle});
     } else if (a.proven.obstacle != kNoObstacle && a.proven.low < passed_over(a.proven.low)) {
       undecided(a.proven, "the log is not precise enough");
     } else if (a.interpolated.obstacle != kNoObstacle && a.interpolated.low < passed_over(a.interpolated.low)) {
@@ -259,14 +260,14 @@ class Verdicts {
  private:
   void undecided(const Closest& c, const char* why) {
     ++undecided_;
-    ++check_.unchecked[fmt::format("whether {} was touched at {:.3f} s: {:.6f} to {:.6f} m, {}", names_(c.obstacle),
+    ++check_.unchecked[fmt::format("whether {} was touched at {:.3f} s: {:.6f} to {:.6f} m, {}", name_of(c.obstacle),
                                    record_.seconds(c.at), c.low - passed_over(c.low), c.high, why)];
   }
 
   void say(const LeastClearance& least, const Closest& closest) {
     const std::int64_t fewest = surely_.value_or(check_.checked);
     check_.summary = fmt::format("least {:.4f} to {:.4f} m, to {} at {:.3f} s{}; {}{} {}{}", least.low, least.high,
-                                 names_(closest.obstacle), record_.seconds(closest.at),
+                                 name_of(closest.obstacle), record_.seconds(closest.at),
                                  undeclared_ > 0 ? " (between samples by interpolation)" : "",
                                  fewest < check_.checked ? fmt::format("{} to ", fewest) : "", check_.checked,
                                  names_.all, undecided_ > 0 ? fmt::format(", {} too close to tell", undecided_) : "");

@@ -78,8 +78,9 @@ Contact contact_at(const FlightRecord& record, UTime at, std::int64_t obstacle) 
 }
 
 std::string to_text(const Contact& contact, const FlightRecord& record) {
-  std::string text = fmt::format("Obstacle {} was touched at {:.3f} s, by the vehicle at {:.2f} m/s. ",
-                                 contact.obstacle, record.seconds(contact.at), contact.speed_mps);
+  std::string text = fmt::format("{} was touched at {:.3f} s, by the vehicle at {:.2f} m/s. ",
+                                 record.name_of(contact.obstacle), record.seconds(contact.at), contact.speed_mps);
+  text.front() = 'O';
   text += contact.in_predictions_s
               ? fmt::format("It had been in PREDICTIONS for {:.2f} s.\n", *contact.in_predictions_s)
               : std::string("It was not in PREDICTIONS.\n");
@@ -99,6 +100,7 @@ std::string to_text(const Contact& contact, const FlightRecord& record) {
 nlohmann::json to_json(const Contact& contact, const FlightRecord& record) {
   nlohmann::json json = {{"time_s", record.seconds(contact.at)},
                          {"obstacle", contact.obstacle},
+                         {"name", record.name_of(contact.obstacle)},
                          {"speed_mps", contact.speed_mps},
                          {"text", to_text(contact, record)}};
   if (contact.in_predictions_s) json["in_predictions_s"] = *contact.in_predictions_s;

@@ -62,6 +62,11 @@ class Reading {
       record_.goal_names.insert(goal.header.name);
       if (record_.goals.empty() || record_.goals.back().id != goal.id) record_.goals.push_back(goal);
     });
+    log_.on(channels::kHeartbeat, [this](const Heartbeat& heartbeat, std::int64_t) {
+      record_.processes.insert(heartbeat.process);
+      const bool is_logger = heartbeat.process == "tern-logger" && heartbeat.state == ProcessState::Failed;
+      if (is_logger) record_.logger_trouble = heartbeat.waiting_for;
+    });
     log_.on(channels::kConfiguration, [this](const ConfigurationReport& report, std::int64_t) { take(report); });
   }
 
@@ -242,6 +247,11 @@ std::int64_t FlightRecord::unread(const std::string& channel) const {
   const auto found = contents.channels.find(channel);
   if (found == contents.channels.end()) return 0;
   return found->second.lost + found->second.before_first + found->second.refused_total();
+}
+
+std::string FlightRecord::name_of(std::int64_t obstacle) const {
+  const auto named = obstacle_names.find(obstacle);
+  return fmt::format("obstacle {}{}", obstacle, named == obstacle_names.end() ? "" : " '" + named->second + "'");
 }
 
 const HorizonRequest* FlightRecord::request(const MessageName& name) const {

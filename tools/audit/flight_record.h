@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -70,11 +71,18 @@ struct FlightRecord {
   std::map<std::uint64_t, VoxelMap> maps;           ///< complete maps, by version
   std::vector<FlightResult> results;                ///< first message of each that differs from its predecessor
   std::vector<ConfigurationReport> configurations;  ///< the last of each process
-  std::vector<Region> regions;                      ///< of the scenario; filled by load_flight()
-  std::map<std::string, std::string> class_labels;  ///< class → "attractive", "repulsive", …
+  std::set<std::string> processes;                  ///< that sent a HEARTBEAT
+  std::string logger_trouble;  ///< tern-logger's words about messages that it could not write; may be empty
+  std::optional<double> summary_flight_s = {};         ///< by the summary beside the log; filled by load_flight()
+  std::string why;                                     ///< as in the summary (monitor/flight_cause.h); by load_flight()
+  std::map<std::int64_t, std::string> obstacle_names;  ///< of the scenario; filled by load_flight()
+  std::vector<Region> regions;                         ///< of the scenario; filled by load_flight()
+  std::map<std::string, std::string> class_labels;     ///< class → "attractive", "repulsive", …
 
   /// Returns how many messages of a channel were lost (as the sequence numbers show) or refused.
   [[nodiscard]] std::int64_t unread(const std::string& channel) const;
+  /// Names a true obstacle: "obstacle 3 'gate'", or "obstacle 3" if the scenario gives it no name.
+  [[nodiscard]] std::string name_of(std::int64_t obstacle) const;
   /// Returns the request with this name. @return nullptr if it is not in the log
   [[nodiscard]] const HorizonRequest* request(const MessageName& name) const;
   /// Returns the start of the flight: the time of the first request, or of the first state if there is no request. With

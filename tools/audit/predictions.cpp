@@ -215,7 +215,7 @@ class PredictionsCheck {
       return;
     }
     check_.fail({prediction.worst_at,
-                 fmt::format("obstacle {} left its declared motion by {:.4g} m", obstacle, prediction.worst), 0,
+                 fmt::format("{} left its declared motion by {:.4g} m", record_.name_of(obstacle), prediction.worst), 0,
                  obstacle});
   }
 

@@ -11,8 +11,8 @@
 #include "core/world/body.h"
 #include "core/world/names.h"
 #include "core/world/replan_samples.h"
+#include "core/world/setting.h"
 #include "runtime/clock.h"
-#include "tools/audit/configured.h"
 #include "tools/report/map_runs.h"
 
 namespace tern::report {
@@ -158,7 +158,7 @@ json regions_of(const FlightRecord& record) {
   return regions;
 }
 
-/// One answer: time of its request, and cost.
+/// One answer: time of its request, and cost. All times in ms are the system's, as those of PLAN_TIMING.
 struct Answer {
   double t = 0.0, deadline_ms = 0.0;
   const Plan* plan = nullptr;
@@ -166,14 +166,14 @@ struct Answer {
   [[nodiscard]] double total_ms() const { return timing == nullptr ? 0.0 : timing->total_ms; }
 };
 
-std::vector<Answer> answers_of(const FlightRecord& record) {
+std::vector<Answer> answers_of(const FlightRecord& record, double pace) {
   std::map<std::int64_t, const PlanTiming*> timings;
   for (const PlanTiming& t : record.timings) timings[t.request_id] = &t;
   std::map<MessageName, const Plan*> plans;
   for (const Plan& plan : record.plans) plans.emplace(plan.inputs.request, &plan);
   std::vector<Answer> answers;
   for (const HorizonRequest& r : record.requests) {
-    Answer a{record.seconds(r.header.utime), (r.deadline - r.header.utime).seconds() * 1e3, nullptr, nullptr};
+    Answer a{record.seconds(r.header.utime), (r.deadline - r.header.utime).seconds() * 1e3 / pace, nullptr, nullptr};
     if (const auto plan = plans.find(r.header.name); plan != plans.end()) a.plan = plan->second;
     if (const auto timing = timings.find(r.id); timing != timings.end()) a.timing = timing->second;
     answers.push_back(a);
@@ -254,6 +254,7 @@ json flight_of(const FlightRecord& record) {
     flight["body_half"] = row(0.5 * body_box(r.body).sizes());
     flight["flight_box"] = {row(r.flight_box.min()), row(r.flight_box.max())};
   }
+  if (!record.why.empty()) flight["why"] = record.why;
   if (!record.goals.empty()) flight["goal"] = row(record.goals.back().position);
   if (!record.results.empty()) {
     const FlightResult& r = record.results.back();
@@ -268,10 +269,10 @@ json flight_of(const FlightRecord& record) {
                         {"left_out", r.obstacles_left_out}};
   }
   for (const ConfigurationReport& c : record.configurations) {
-    if (const std::string name = audit::setting(c.yaml, "name"); !name.empty()) flight["scenario"] = name;
+    if (const std::string name = setting(c.yaml, "name"); !name.empty()) flight["scenario"] = name;
     if (flight.contains("settings")) continue;
     for (const auto& [key, words] : kSettings) {
-      const std::string value = audit::setting(c.yaml, key);
+      const std::string value = setting(c.yaml, key);
       const bool has_generator = key != std::string_view("world.count") || value != "0";
       if (!value.empty() && has_generator) flight["settings"].push_back({words, value});
     }
@@ -292,7 +293,7 @@ json report_data(const FlightRecord& record, const Audit& audit, const FlightLau
           {"obstacles", obstacles_of(record)},
           {"regions", regions_of(record)},
           {"map", map_runs(record, kMaxMapRuns)},
-          {"answers", answers_to_json(answers_of(record))},
+          {"answers", answers_to_json(answers_of(record, launch.pace))},
           {"names", {{"outcomes", kWords<PlanOutcome>}, {"reasons", kWords<PlanReason>}, {"stages", kWords<Stage>}}},
           {"costs", costs_of(record)},
           {"log", log_of(record)},

@@ -3,20 +3,73 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
 
+#include "core/base/files.h"
+#include "monitor/app/subscribe_flight.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 
 namespace tern::audit {
 namespace {
 
-/// Returns the contents of a file in the flight's folder; empty if there is none.
+namespace fs = std::filesystem;
+
+/// Returns the path of a file in the flight's folder.
+fs::path beside(const std::string& log, const char* file) {
+  return (fs::is_directory(log) ? fs::path(log) : fs::path(log).parent_path()) / file;
+}
+
+/// Returns the first line of a file in the flight's folder; empty if there is none.
 std::string first_line(const std::string& log, const char* file) {
-  namespace fs = std::filesystem;
-  std::ifstream in((fs::is_directory(log) ? fs::path(log) : fs::path(log).parent_path()) / file);
+  std::ifstream in(beside(log, file));
   std::string line;
   std::getline(in, line);
   return line;
+}
+
+/// The flight's length by the summary beside the log, if it is the summary of this log.
+std::optional<double> summary_flight_s(const std::string& log) {
+  const auto summary = nlohmann::json::parse(read_text(beside(log, "summary.json")), nullptr, false);
+  if (!summary.is_object() || !summary.contains("flight_time_s") || !summary["flight_time_s"].is_number()) return {};
+  const std::string recorded =
+      fs::path(summary.value("log", nlohmann::json()).is_string() ? summary["log"].get<std::string>() : "").filename();
+  return recorded == fs::path(log).filename() || fs::is_directory(log)
+             ? std::optional(summary["flight_time_s"].get<double>())
+             : std::nullopt;
+}
+
+/// Names by obstacle. The ids of a world begin with the generator's obstacles (simulator/worlds).
+std::map<std::int64_t, std::string> names_of(const WorldSpec& world) {
+  std::map<std::int64_t, std::string> names;
+  std::int64_t id = world.generator == "none" ? 0 : world.count;
+  for (const ObstacleSpec& obstacle : world.obstacles) {
+    if (!obstacle.name.empty()) names.emplace(id, obstacle.name);
+    ++id;
+  }
+  return names;
+}
+
+/// Explains the flight's end as tern-monitor did, by the same messages.
+std::string why(const FlightRecord& record, const Scenario& scenario) {
+  FlightWatch watch(scenario, UTime{record.contents.first_us});
+  FlightLog log;
+  const auto pass = [&]<class T>(const Channel<T>& channel) {
+    log.on(channel, [&watch](const T& message, std::int64_t received_us) {
+      if constexpr (requires { watch.receive(message, UTime{}); }) {
+        watch.receive(message, UTime{received_us});
+      } else {
+        watch.receive(message);
+      }
+    });
+  };
+  for_each_channel(pass, kJudgedChannels);
+  if (!log.read(record.path)) return "";
+  if (fs::exists(beside(record.path, "env.sh"))) watch.set_pace(flown_pace(record.path));
+  if (const std::string failure = first_line(record.path, "failure"); !failure.empty()) watch.fail(failure);
+  const auto ending = watch.ending(UTime{record.contents.last_us} + kLastReports);
+  return ending ? watch.summary(*ending).explanation.sentence : "";
 }
 
 }  // namespace
@@ -25,13 +78,17 @@ Result<FlightRecord> load_flight(const std::string& path) {
   auto record = read_flight(path);
   if (!record) return record;
   if (record->contents.events == 0) return fail(path + ": holds no complete message");
+  record->summary_flight_s = summary_flight_s(path);
   for (const ConfigurationReport& report : record->configurations) {
     if (report.yaml.empty()) continue;
     try {
       ConfigDocument document = ConfigDocument::parse(report.yaml, report.process);
-      const SemanticsSpec semantics = read_scenario(document).semantics;
+      const Scenario scenario = read_scenario(document);
+      const SemanticsSpec& semantics = scenario.semantics;
       record->regions = semantics.regions;
       record->class_labels.insert(semantics.classes.begin(), semantics.classes.end());
+      record->obstacle_names = names_of(scenario.world);
+      record->why = why(*record, scenario);
       break;
     } catch (const ConfigError&) {
       // It is no scenario, or one of another version; the next process's may be readable.

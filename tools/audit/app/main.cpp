@@ -15,7 +15,17 @@
 
 namespace {
 
-constexpr int kBroken = 1;
+constexpr int kExitPartOnly = 3;   ///< nothing is broken in the part of the flight that the log holds
+constexpr int kExitNotJudged = 4;  ///< the log holds no flight
+
+int exit_code(tern::audit::Verdict verdict) {
+  switch (verdict) {
+    case tern::audit::Verdict::Held: return 0;
+    case tern::audit::Verdict::Broken: return 1;
+    case tern::audit::Verdict::Incomplete: return kExitPartOnly;
+    default: return kExitNotJudged;
+  }
+}
 
 int run(const std::string& log, const std::string& json_file) {
   const tern::audit::FlightRecord record = tern::value_or_throw(tern::audit::load_flight(log));
@@ -24,14 +34,16 @@ int run(const std::string& log, const std::string& json_file) {
   if (!json_file.empty() && !tern::write_text(json_file, tern::audit::to_json(audit, record).dump(1) + "\n")) {
     throw std::runtime_error(json_file + " cannot be written");
   }
-  return audit.verdict() == tern::audit::Verdict::Broken ? kBroken : 0;
+  return exit_code(audit.verdict());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   tern::CommandLine app{
-      "Recomputes a recorded flight and lists violations. Exit code: 0 held, 1 broken, 2 bad arguments or log."};
+      "Recomputes a recorded flight and lists violations. Exit code: 0 held, 1 broken, 2 bad arguments or log, 3 "
+      "incomplete, "
+      "4 not judged."};
   app.set_version_flag("--version", fmt::format("tern-audit {}", tern::build_id()));
   std::string log, json;
   app.add_option("LOG", log, "The log: a file (further parts are found), or a flight's folder")->required();

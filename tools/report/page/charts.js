@@ -65,7 +65,7 @@ function clearances() {
   const row = pair();
   const closest = check("clearance").measures;
   const note = closest.least_at_s == null ? "No true obstacle in the log." :
-    `To the surface of the nearest true obstacle, body included. Least: ${fixed(leastOf(closest), 3)} to ${fixed(closest.least_m_at_most, 3)} m, to obstacle ${closest.least_obstacle} at ${fixed(closest.least_at_s, 2)} s. Above 3 m not shown.`;
+    `To the surface of the nearest true obstacle, body included. Least: ${fixed(leastOf(closest), 3)} to ${fixed(closest.least_m_at_most, 3)} m, to ${nameOf(closest.least_obstacle)} at ${fixed(closest.least_at_s, 2)} s. Above 3 m not shown.`;
   const box = card("Clearance, m", note, row);
   chart(box, {
     columns: [path.t, path.clearance], series: [{ label: "nearest obstacle", colour: "c1", fill: true, value: (u, y) => fixed(y, 3) }],

@@ -26,8 +26,8 @@ function coverage() {
   const atRest = new Set(obstacles.statics.map((o) => o.id));
   const worst = audit.tracks.filter((t) => !atRest.has(t.obstacle)).sort((a, b) => b.worst_m - a.worst_m).slice(0, 7);
   const tracks = card("Tracks nearest to leaving their intervals", "Moving tracks. How far the true box stood out of its prediction interval; negative: the margin that was left.", row);
-  table(tracks, [["track", true], ["obstacle", true], ["predictions", true], ["covered", true], ["farthest out, mm", true]],
-    worst.map((t) => [String(t.track), String(t.obstacle), whole(t.promises), whole(t.kept), fixed(t.worst_m * 1e3, 3)]));
+  table(tracks, [["track", true], ["obstacle", false], ["predictions", true], ["covered", true], ["farthest out, mm", true]],
+    worst.map((t) => [String(t.track), nameOf(t.obstacle), whole(t.promises), whole(t.kept), fixed(t.worst_m * 1e3, 3)]));
 }
 function lowerConfidences(shares) {
   const levels = [...new Set(shares.map((s) => s.promised))].sort((x, y) => y - x);

@@ -1,5 +1,6 @@
 // The flown path from above and from the side.
 const { flight, path, obstacles, regions, answers, audit } = data;
+const nameOf = (id) => `obstacle ${id}` + (audit.names && audit.names[id] ? ` '${audit.names[id]}'` : "");
 const { outcomes: OUTCOMES, reasons: REASONS, stages: STAGES } = data.names;
 const STAGE_COLOURS = ["c6", "c3", "c4", "c1", "c2", "c5"];
 const PRINT_WIDTH = 660;

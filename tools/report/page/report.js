@@ -4,7 +4,7 @@ function head() {
   const result = flight.result;
   const outcome = result ? result.outcome : "no verdict";
   const tone = outcome === "reached" ? "good" : result ? "bad" : "warn";
-  const verdict = { held: ["good", "audit held"], broken: ["bad", "audit broken"], "not checked": ["warn", "not audited"] }[audit.verdict];
+  const verdict = { held: ["good", "audit held"], broken: ["bad", "audit broken"], incomplete: ["warn", "audit incomplete: a part of the flight is not in the log"], "not judged": ["warn", "not judged"] }[audit.verdict];
   if (audit.collision === "cannot tell") verdict.splice(0, 2, "warn", "audit " + audit.verdict + ", the collision is too close to tell");
   const date = flight.recorded_us > 1e15 ? new Date(flight.recorded_us / 1000).toISOString().slice(0, 16).replace("T", " ") + " UTC, " : "";
   const met = result ? `, ${whole(result.obstacles)} obstacles` + (result.left_out ? ` (${whole(result.left_out)} left out: they started too near to the vehicle)` : "") : "";
@@ -13,7 +13,8 @@ function head() {
     el("div", { class: "where" }, `${date}${fixed(flight.length_s, 1)} s recorded${flight.pace ? ` at a pace of ${flight.pace}` : ""} in ${flight.log}`),
     flight.settings ? el("div", { class: "where" }, "Flown with: " + flight.settings.map(([key, value]) => `${key} ${value.includes(".inf") ? "none" : value}`).join(", ") + ` (SI)${met}; version ${flight.version}`) : null,
     flight.command ? el("div", { class: "where" }, "Command: ", el("code", {}, flight.command)) : null,
-    result && result.detail ? el("div", { class: "where" }, "Referee: " + result.detail) : null));
+    result && result.detail ? el("div", { class: "where" }, "Referee: " + result.detail) : null,
+    flight.why ? el("div", { class: "where" }, "Why the goal was not reached: " + flight.why) : null));
   const total = data.costs[0].ms;
   const clearance = check("clearance").measures, walls = check("map").measures;
   const least = (m, of) => [fixed(leastOf(m), 3), "m", (m.least_m_at_least === undefined ? "least clearance of " + of + ", about" : "least clearance of " + of + ", at least")];
