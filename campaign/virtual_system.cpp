@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "executor/app/executor_node.h"
+#include "planner/app/blocked_goal.h"
 #include "planner/app/config_reader.h"
 #include "planner/app/planner_node.h"
 #include "predictor/app/predictor_config.h"
@@ -77,7 +78,8 @@ void VirtualSystem::start(const std::string& process) {
     execution.threaded = false;
     execution.charge_cpu = parts_->charge == Charge::Cpu;
     return std::make_unique<PlannerNode>(bus, parts_->scenario.uav, parts_->planner,
-                                         configuration_hash(parts_->effective_yaml), execution);
+                                         configuration_hash(parts_->effective_yaml), execution,
+                                         named_places(parts_->scenario));
   };
   const Node& node = runner_.start(process, make, parts_->effective_yaml);
   if (process == "tern-executor") executor_ = static_cast<const ExecutorNode*>(&node);

@@ -35,7 +35,7 @@ const char* to_string(Cause cause);
 struct FlightEnd {
   FlightOutcome outcome = FlightOutcome::Failed;
   std::string detail;
-  std::optional<FlightResult> result;  ///< the referee's, if it published one
+  std::optional<FlightResult> result = {};  ///< the referee's, if it published one
   /// Seconds of flight per second of the system's clock; nullopt: virtual time, or a clock that cannot be slowed.
   std::optional<double> pace = {};
 };
