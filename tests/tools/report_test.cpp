@@ -14,7 +14,7 @@
 #include "tests/support/recorded_flight.h"
 #include "tests/support/temp_folder.h"
 #include "tools/audit/app/load_flight.h"
-#include "tools/audit/configured.h"
+#include "core/world/setting.h"
 #include "tools/report/report_data.h"
 
 namespace tern::report {
@@ -89,12 +89,12 @@ TEST(FlownPace, IsWhatTheFlightsFolderSays) {
 
 TEST(Setting, IsReadWhereItsSectionIs) {
   const std::string yaml = "seed: 7\nworld:\n  name: a\n  box:\n    min: [1, 2]\n  count: 3\nuav:\n  count: 5\n";
-  EXPECT_EQ(audit::setting(yaml, "seed"), "7");
-  EXPECT_EQ(audit::setting(yaml, "world.box.min"), "[1, 2]");
-  EXPECT_EQ(audit::setting(yaml, "world.count"), "3");
-  EXPECT_EQ(audit::setting(yaml, "uav.count"), "5");
-  EXPECT_EQ(audit::setting(yaml, "uav.box.min"), "");
-  EXPECT_EQ(audit::setting(yaml, "world.see"), "");
+  EXPECT_EQ(setting(yaml, "seed"), "7");
+  EXPECT_EQ(setting(yaml, "world.box.min"), "[1, 2]");
+  EXPECT_EQ(setting(yaml, "world.count"), "3");
+  EXPECT_EQ(setting(yaml, "uav.count"), "5");
+  EXPECT_EQ(setting(yaml, "uav.box.min"), "");
+  EXPECT_EQ(setting(yaml, "world.see"), "");
 }
 
 TEST(Report, TellsWhatTheLogTells) {
