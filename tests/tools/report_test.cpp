@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "core/world/setting.h"
 #include "monitor/flight_watch.h"
 #include "runtime/clock.h"
 #include "tests/support/recorded_flight.h"
 #include "tests/support/temp_folder.h"
 #include "tools/audit/app/load_flight.h"
-#include "core/world/setting.h"
 #include "tools/report/report_data.h"
 
 namespace tern::report {
