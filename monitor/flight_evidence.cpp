@@ -11,6 +11,8 @@ namespace {
 
 /// Smoothing of the sensor's delay: the mean of some ten frames.
 constexpr double kShare = 0.1;
+/// Most processes that are remembered: forged heartbeats must not fill the memory.
+constexpr std::size_t kMaxProcesses = 256;
 
 void note(std::map<std::string, Complaint>& complaints, const std::string& name, UTime at, const std::string& text) {
   const auto [found, is_new] = complaints.try_emplace(name, Complaint{at, at, text});
@@ -23,6 +25,7 @@ void note(std::map<std::string, Complaint>& complaints, const std::string& name,
 void FlightEvidence::receive(const Heartbeat& heartbeat) {
   const UTime at = heartbeat.header.utime;
   newest_ = std::max(newest_, at);
+  if (!heard_.contains(heartbeat.process) && heard_.size() >= kMaxProcesses) return;
   heard_[heartbeat.process] = at;
   if (heartbeat.state == ProcessState::Ready || heartbeat.state == ProcessState::Finished) {
     not_ready_.erase(heartbeat.process);
@@ -73,7 +76,11 @@ void FlightEvidence::receive(const Goal& goal) {
   progress_at_ = goal.header.utime;
 }
 
+/// A network may deliver a request again, also after its answer.
 void FlightEvidence::receive(const HorizonRequest& request) {
+  const bool is_again = last_request_ && request.id <= last_request_->id &&
+                        request.header.name.sender_epoch_us == last_request_->header.name.sender_epoch_us;
+  if (is_again) return;
   newest_ = std::max(newest_, request.header.utime);
   if (!begun_ && !is_held_) begun_ = progress_at_ = request.header.utime;
   const double never = std::numeric_limits<double>::infinity();

@@ -57,6 +57,8 @@ std::string StartGate::missing(UTime now) const {
       append(text, name, "its HEARTBEAT has ceased");
     } else if (const std::string skew = skew_of(found->second); !skew.empty()) {
       append(text, name, skew);
+    } else if (found->second.state == ProcessState::Failed && !found->second.waiting_for.empty()) {
+      append(text, name, found->second.waiting_for);
     } else if (found->second.state != ProcessState::Ready) {
       append(text, name, found->second.waiting_for.empty() ? "not ready" : "waits for " + found->second.waiting_for);
     } else if (!found->second.skew.reading()) {

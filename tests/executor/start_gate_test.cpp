@@ -49,6 +49,8 @@ TEST(StartGate, OpensWhenEveryoneIsReadyAndSaysWhoIsNot) {
   EXPECT_EQ(gate.missing(kNow), "tern-planner (waits for a map)");
   gate.receive(heartbeat("tern-planner", ProcessState::Starting), kNow);
   EXPECT_EQ(gate.missing(kNow), "tern-planner (not ready)");
+  gate.receive(heartbeat("tern-planner", ProcessState::Failed, "the disk is full"), kNow);
+  EXPECT_EQ(gate.missing(kNow), "tern-planner (the disk is full)");
   gate.receive(heartbeat("tern-planner", ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.open(kNow));
 }

@@ -192,6 +192,15 @@ TEST(FlightCause, OfAnswersThatNeverCameIsTheSameSlowness) {
   EXPECT_EQ(story.timeout().cause, Cause::TooSlow);
 }
 
+TEST(FlightCause, ARequestThatIsDeliveredAgainIsNotUnanswered) {
+  Story story;
+  story.fly(0, 4, 0.5);
+  const std::size_t answered = story.evidence.answers().size();
+  story.evidence.receive(HorizonRequest(*story.evidence.last_request()));
+  story.fly(4, 5, 0.5);
+  EXPECT_EQ(story.evidence.answers().size(), answered + 20);
+}
+
 TEST(FlightCause, OfADeadProcessNamesItAndWhenItWasHeardLast) {
   Story story;
   for (double s = 0; s < 4; s += 0.5) story.beat("tern-planner", s).beat("tern-executor", s);
