@@ -16,6 +16,9 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Without progress for this share of the flight, the time was not too short.
 constexpr double kShareWithoutProgress = 0.3;
+/// A vehicle that ceased to follow so shortly before the end was not held by that: the verdict itself ends the
+/// following.
+constexpr Duration kShortlyBefore{500'000};
 /// The answers before a contact that are told.
 constexpr Duration kBeforeContact{1'000'000};
 
@@ -60,7 +63,8 @@ class Explainer {
               fmt::format("{}: {} was silent from {:.1f} s on, so it died or was cut off; {}.log says why", held_,
                           silent->first, seconds(silent->second), silent->first)};
     }
-    if (const auto& complaint = evidence_.not_following()) return not_following(*complaint);
+    const auto& complaint = evidence_.not_following();
+    if (complaint && evidence_.newest() - complaint->since > kShortlyBefore) return not_following(*complaint);
     const auto executor = evidence_.not_ready().find("tern-executor");
     if (executor != evidence_.not_ready().end()) {
       return {Cause::StateRefused,

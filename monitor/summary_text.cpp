@@ -109,7 +109,7 @@ std::string plan_lines(const FlightSummary& s) {
   text += "\n" + reason_line(s);
   const std::int64_t less = std::accumulate(s.by_level.begin() + 1, s.by_level.end(), std::int64_t{0});
   if (less > 0 || s.for_a_time > 0) {
-    text += fmt::format("  confidence    {} plans at full confidence, {} at less, {} below {}; {} for a limited time\n",
+    text += fmt::format("  confidence    {} at full confidence, {} at less, {} below {}; {} for a limited time\n",
                         s.by_level.front(), less - s.by_level.back(), s.by_level.back(), kConfidenceLevels.back(),
                         s.for_a_time);
   }

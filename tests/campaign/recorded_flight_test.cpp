@@ -70,13 +70,14 @@ TEST(RecordedFlight, OneSentenceSaysWhyInSummaryAndTableAndOfTheLog) {
   const std::string wall = "world.obstacles=[{name: gate, centre: [2, 0, 2], half_extents: [0.3, 8, 8]}]";
   const std::vector<Failed> flights{
       {{"timeout_s=1.0"}, "time too short", "was on its way"},
-      {{"world.generator=none", wall}, "goal blocked", "'gate'"},
+      {{"world.generator=none", "world.count=0", wall}, "goal blocked", "'gate'"},
       {{"uav.goal=[4, 2.5, 1]", "executor.tube_m=0.3"}, "goal blocked", "inside the box less a tube of 0.3 m"},
       {{"uav.goal=[4, 2.9, 1]"}, "goal blocked", "not inside the flight box less the body"},
       {{"simulator.declare=false", "simulator.sensor.mode=noisy", "simulator.sensor.latency_s=0.4"},
        "stale world",
        "sensor 0.40 s late, limit 0.3"},
-      {{"world.generator=none", "world.obstacles=[{name: crate, centre: [0, 0, 1], half_extents: [1, 1, 1]}]"},
+      {{"world.generator=none", "world.count=0",
+        "world.obstacles=[{name: crate, centre: [0, 0, 1], half_extents: [1, 1, 1]}]"},
        "contact",
        "the start lies in obstacle 0 'crate'"},
   };

@@ -228,6 +228,12 @@ TEST(FlightCause, OfAVehicleThatFollowsAgainIsNotThatItDidNot) {
   EXPECT_EQ(story.timeout().cause, Cause::NoPlan);
 }
 
+TEST(FlightCause, ThatTheVerdictEndsTheFollowingIsNoCause) {
+  Story story;
+  story.fly(0, 10, 0.5).status(0, true).status(10, false, "the flight has ended");
+  EXPECT_EQ(story.timeout().cause, Cause::TimeTooShort);
+}
+
 TEST(FlightCause, OfALostEstimateSaysThatTheFlightWaitsForIt) {
   Story story;
   story.fly(0, 6, 0.5).status(0, true);

@@ -137,7 +137,7 @@ TEST(Summary, SaysHowManyPlansWereLessSureThanPromised) {
   EXPECT_EQ(to_text(s).find("confidence"), std::string::npos);
   s.by_level = {200, 10, 9, 8, 7, 6};
   s.for_a_time = 5;
-  EXPECT_NE(to_text(s).find("200 plans at full confidence, 34 at less, 6 below 0.6; 5 for a limited time"),
+  EXPECT_NE(to_text(s).find("200 at full confidence, 34 at less, 6 below 0.6; 5 for a limited time"),
             std::string::npos);
   EXPECT_EQ(
       json::parse(to_json(s))["confidence"],
