@@ -96,14 +96,13 @@ std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3
 
 /// Returns the best kMaxStops stops within the flight box, the best forecast first.
 std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorkspace& memory) {
-  const Box box = centre_box(near.request.flight_box, near.request.body);
   std::vector<Stop> stops;
   double longest = 0.0;
   const std::size_t ways = phase == Phase::Room ? kFacesAndCorners : directions().size();
   for (const double distance : distances(near, phase)) {
     for (std::size_t k = 0; k < ways; ++k) {
       for (const double pace : kStopPaces) {
-        const auto stop = stop_at(near, box, near.request.start.p + directions()[k] * distance, pace);
+        const auto stop = stop_at(near, near.room, near.request.start.p + directions()[k] * distance, pace);
         if (!stop || (stop->is_quick && !near.hold.none_estimated)) continue;
         longest = std::max(longest, stop->way_s);
         stops.push_back(*stop);

@@ -28,6 +28,12 @@ std::vector<PowerCubic> remaining_pieces(const HorizonRequest& request, std::vec
   return pieces;
 }
 
+bool stays_within(const std::vector<PowerCubic>& pieces, const Box& room) {
+  const Box allowed = grown(room, Vec3::Constant(kBoxTolerance));
+  return std::ranges::all_of(pieces,
+                             [&](const PowerCubic& piece) { return allowed.contains(cubic_bounds(piece, 0.0, 1.0)); });
+}
+
 }  // namespace
 
 Fallback check_committed(const Surroundings& near, bool has_reached_goal, PlanTools& tools) {
@@ -44,7 +50,7 @@ Fallback check_committed(const Surroundings& near, bool has_reached_goal, PlanTo
   CheckReport report = check_separation(pieces, swept);
   tools.log.statistics.pairs += report.pairs;
   tools.log.statistics.count(swept);
-  if (!report.ok()) return {};
+  if (!report.ok() || !stays_within(pieces, near.free_side)) return {};
   const Vec3 end = request.committed.control_points.rightCols<1>();
   const ClearTime clear = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
   if (rests && clear.seconds <= 0.0) return {};

@@ -1,10 +1,14 @@
 #include "planner/start_clearance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/geometry/box.h"
 #include "core/geometry/distance.h"
 #include "core/geometry/separation.h"
+#include "core/world/body.h"
 #include "planner/problem/tuning.h"
 
 namespace tern {
@@ -57,7 +61,47 @@ bool is_surely_clear(const PlanningObstacle& o, const Vec3& reach, const Vec3& p
   return !grown(o.boxes->whole, reach + Vec3::Constant(kWithRounding)).contains(p);
 }
 
+/// Returns the box of an obstacle that stays where it is, with its α; nullopt for a mover.
+std::optional<Box> static_box(const PlanningObstacle& o) {
+  if (o.moves()) return std::nullopt;
+  if (o.track == nullptr) return o.box;
+  return box_around(o.track->motion.pieces.front().coefficients.col(3),
+                    o.track->half_extents + o.alpha.of(*o.track, 0));
+}
+
+/// Cuts `side` at p if the body at p touches the box.
+/// @param points  the body's vertices at p, W. @param bounds  of the body at p, W
+/// @return whether it does
+bool cut_at_touched_face(const Box& box, const Points& points, double radius, const Box& bounds, const Vec3& p,
+                         Box& side) {
+  const Vec3 above = bounds.min() - box.max();
+  const Vec3 below = box.min() - bounds.max();
+  Eigen::Index axis = 0;
+  const double gap = above.cwiseMax(below).maxCoeff(&axis);
+  if (std::abs(gap) > kTouchingTolerance) return false;
+  if (distance(box_corners(box), points) > radius + kTouchingTolerance) return false;
+  if (above[axis] >= below[axis]) {
+    side.min()[axis] = std::max(side.min()[axis], p[axis]);
+  } else {
+    side.max()[axis] = std::min(side.max()[axis], p[axis]);
+  }
+  return true;
+}
+
 }  // namespace
+
+Box leave_touched(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box side(Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity));
+  const Points points = body.vertices.colwise() + p;
+  const Box extent = body_box(body);
+  const Box bounds(p + extent.min(), p + extent.max());
+  std::erase_if(obstacles, [&](const PlanningObstacle& o) {
+    const std::optional<Box> box = static_box(o);
+    return box && cut_at_touched_face(*box, points, body.radius, bounds, p, side);
+  });
+  return side;
+}
 
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t) {
   StartClearance result;

@@ -18,4 +18,13 @@ struct StartClearance {
 /// distance.
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t);
 
+/// Confines the vehicle to its side of each static box that the body at p touches exactly, and takes that box out of
+/// `obstacles`. So a vehicle that stands on its ground can leave it.
+///
+/// A box is touched if |gap| ≤ kTouchingTolerance. The gap is that between the bounds of body and box along the axis on
+/// which they are farthest apart. The face on that axis separates them. The body stays on its side while the centre is
+/// at least as far from the face as p. So the face takes the place of a plane, and the checker tests true extrema.
+/// @return the positions of the centre that are no nearer to a touched face than p, W; infinite where none is touched
+Box leave_touched(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p);
+
 }  // namespace tern

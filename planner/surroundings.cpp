@@ -38,6 +38,7 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
   const Box committed = committed_box(request);
   const Box region = planning_region(request, config, committed);
   find_obstacles(region, world, memory);
+  const Box free_side = leave_touched(memory.obstacles, request.body, request.start.p);
   const StartClearance start = clear_start(memory.obstacles, request.body, request.start.p, request.t_s);
   const LookAhead look = look_ahead(request.t_s, *world.predictions, region);
   Limits plan_limits = request.limits;
@@ -47,6 +48,8 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
           memory.obstacles,
           committed,
           {},
+          free_side,
+          centre_box(request.flight_box, request.body).intersection(free_side),
           start,
           look,
           hold_demand(request, config, memory.obstacles, look.horizon_s),
@@ -63,15 +66,9 @@ void reduce_assurance(const Assurance& assurance, PlanWorkspace& memory, Surroun
 }
 
 HorizonProblem horizon_problem(const Surroundings& near, Duration interval) {
-  return {near.request.start,
-          near.config.intervals,
-          interval,
-          near.request.limits,
-          near.plan_limits,
-          near.config.sphere_radius_m,
-          centre_box(near.request.flight_box, near.request.body),
-          near.request.body.radius,
-          near.config.hull_basis};
+  return {near.request.start,  near.config.intervals,    interval,
+          near.request.limits, near.plan_limits,         near.config.sphere_radius_m,
+          near.room,           near.request.body.radius, near.config.hull_basis};
 }
 
 bool is_followed(const Surroundings& near, Duration interval, double hold_s) {

@@ -22,6 +22,8 @@ struct Surroundings {
   const std::vector<PlanningObstacle>& obstacles;  ///< in reach; their α is reduced if the start is relaxed
   Box committed;                                   ///< committed_box()
   Assurance assurance;                             ///< the share of α that is applied
+  Box free_side;  ///< of the centre, beyond each face that the start touches (leave_touched)
+  Box room;       ///< of the centre: the flight box and free_side
   StartClearance start;
   LookAhead look;  ///< no plan lasts beyond look.followed_until
   HoldDemand hold;

@@ -153,7 +153,7 @@ RecordedTracksSpec read_recorded(ConfigSection section) {
   spec.y_column = column("y_column", spec.y_column);
   if (const int z_column = column("z_column", spec.z_column.value_or(-1), -1); z_column >= 0) spec.z_column = z_column;
   spec.metres_per_unit = section.number("metres_per_unit", spec.metres_per_unit, Range::positive(1e6));
-  spec.frames_per_second = section.number("frames_per_second", spec.frames_per_second, Range::positive(1e6));
+  spec.frames_per_second = section.number("frames_per_second", spec.frames_per_second, Range::positive(1e9));
   spec.least_step_s = section.number("least_step_s", spec.least_step_s, Range::at_least(0.0, 3600.0));
   spec.half_extents = section.vec3_or_number("half_extents", spec.half_extents, kHalfExtent);
   spec.centre_z = section.number("centre_z", spec.centre_z, kPosition);

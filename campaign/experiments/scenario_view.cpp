@@ -7,17 +7,21 @@
 #include <cstdlib>
 #include <memory>
 
+#include "campaign/experiments/limits_check.h"
 #include "campaign/experiments/svg.h"
 #include "core/world/body.h"
 #include "core/world/names.h"
+#include "executor/executor.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/config_reader.h"
 #include "planner/planning_world.h"
+#include "predictor/app/predictor_config.h"
 #include "runtime/scenario_file.h"
 #include "semantic_mapper/app/load_map.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/world_broadcast.h"
 #include "simulator/referee/body_distance.h"
+#include "simulator/referee/clearance.h"
 
 namespace tern {
 namespace {
@@ -59,13 +63,13 @@ Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr
 
 std::string place(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
 
-/// Returns "the occupied voxel at (1.1, 0.1, 0.1) of the map" if the body at the start touches one that the planner
+/// Returns "the occupied voxel at (1.1, 0.1, 0.1) of the map" if the body at the start overlaps one that the planner
 /// avoids; "" for none.
-std::string voxel_at_the_start(const ScenarioView& view, const VoxelMap& map) {
+std::string voxel_at_the_start(const ScenarioView& view, const VoxelMap& map, const Body& body) {
   const UavSpec& uav = view.scenario.uav;
-  const BodyDistance distance(uav.body);
+  const BodyDistance distance(body);
   for (const Box& box : view.occupied) {
-    if (distance(uav.start - box.center(), 0.5 * box.sizes()) > 0.0) continue;
+    if (distance(uav.start - box.center(), 0.5 * box.sizes()) > -kTouchTolerance) continue;
     const double inside = 1e-3 * map.grid.resolution;
     const Vec3 nearest =
         uav.start.cwiseMax(box.min() + Vec3::Constant(inside)).cwiseMin(box.max() - Vec3::Constant(inside));
@@ -77,11 +81,11 @@ std::string voxel_at_the_start(const ScenarioView& view, const VoxelMap& map) {
 }
 
 /// Returns the obstacle in which the body starts, as "obstacle 3 'post'"; "" for none.
-std::string around_the_start(const ScenarioView& view) {
+std::string around_the_start(const ScenarioView& view, const Body& body) {
   const UavSpec& uav = view.scenario.uav;
-  const BodyDistance distance(uav.body);
+  const BodyDistance distance(body);
   for (const WorldObstacle& o : view.world.obstacles) {
-    if (!o.present(0.0) || distance(uav.start - o.at(0.0).p, o.half_extents()) > 0.0) continue;
+    if (!o.present(0.0) || distance(uav.start - o.at(0.0).p, o.half_extents()) > -kTouchTolerance) continue;
     const std::string& name = o.spec().name;
     return fmt::format("obstacle {}{}", o.id(), name.empty() ? "" : fmt::format(" '{}'", name));
   }
@@ -215,6 +219,10 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
       load_map(view.scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"));
   const VoxelMap& map = loaded.map;
   view.clouds = std::move(loaded.remarks);
+  view.warnings = view.world.remarks;
+  for (const std::string& warning : excess_thrust(view.scenario.uav.limits, simulator)) {
+    view.warnings.push_back(warning);
+  }
   PlannerConfig planner = read_planner_config(document.root().section("planner"), view.scenario.semantics);
   const auto weighed = std::make_shared<const MapProducts>(map, planner);
   view.occupied = weighed->occupied.boxes();
@@ -222,10 +230,14 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
                          map.grid.size.y(), map.grid.size.z(), map.grid.resolution, view.occupied.size());
   planner.semantics = false;
   const auto shortest = path_between(view, std::make_shared<const MapProducts>(map, planner));
-  std::string around = around_the_start(view);
-  if (around.empty()) around = voxel_at_the_start(view, map);
-  if (!around.empty() || !shortest) {
-    view.blocked = around.empty() ? shortest.error().message : "the start lies in " + around;
+  const double tube_m = document.root().section("executor").read<ExecutorConfig>().tube_m;
+  const Body body = grown(view.scenario.uav.body, Vec3::Constant(tube_m));
+  std::string around = around_the_start(view, body);
+  if (around.empty()) around = voxel_at_the_start(view, map, body);
+  const std::string late = late_sensor(simulator, read_predictor_config(document.root().section("predictor")), planner);
+  if (!around.empty() || !shortest || !late.empty()) {
+    const std::string tube = tube_m > 0.0 ? fmt::format(", with executor.tube_m {:g} around the body", tube_m) : "";
+    view.blocked = !around.empty() ? "the start lies in " + around + tube : !shortest ? shortest.error().message : late;
     return view;
   }
   view.shortest = *shortest;
@@ -243,8 +255,9 @@ std::string to_text(const ScenarioView& view) {
   for (const MapRemark& remark : view.clouds) {
     text += fmt::format("  {}     {}\n", remark.is_warning ? "WARNING" : "cloud  ", remark.text);
   }
+  for (const std::string& warning : view.warnings) text += fmt::format("  WARNING     {}\n", warning);
   text += regions_text(view);
-  if (!view.shortest) return text + fmt::format("  goal      cannot be reached by this body: {}\n", view.blocked);
+  if (!view.shortest) return text + fmt::format("  goal      cannot be reached: {}\n", view.blocked);
   text += fmt::format("  goal      can be reached: {:.1f} m around static obstacles (moving ones are ignored)\n",
                       view.shortest->length_m);
   if (!view.weighted) return text;

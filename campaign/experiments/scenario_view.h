@@ -26,6 +26,7 @@ struct ScenarioView {
   std::vector<Box> occupied;            ///< of the map, W
   std::string map;                      ///< extents as text
   std::vector<MapRemark> clouds;        ///< on the map's point clouds
+  std::vector<std::string> warnings;    ///< on recorded tracks, and on limits that the vehicle cannot give
   std::optional<PlannedPath> shortest;  ///< nullopt: the goal cannot be reached
   std::string blocked;                  ///< if the goal cannot be reached: the obstruction, as text
   std::optional<PlannedPath> weighted;  ///< with the regions' λ; nullopt: unreachable, or λ has no effect
@@ -33,7 +34,7 @@ struct ScenarioView {
 
 /// Reads the scenario and every process's section as a flight would, and makes world, map and paths. Paths are the
 /// planner's own, around static obstacles and occupied voxels, for this body and flight box. Moving obstacles are
-/// ignored.
+/// ignored. A goal also counts as unreachable if the sensor is too late for the planner (late_sensor()).
 /// @throws ConfigError for inputs that a flight would refuse
 ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64_t> seed);
 

@@ -19,10 +19,11 @@ constexpr std::size_t kClassesShown = 12;
 
 struct Census {
   std::array<std::int64_t, 256> of_class{};
-  std::int64_t meant = 0;       ///< points of a class with a meaning
-  std::int64_t in_extents = 0;  ///< of these
-  std::int64_t near_box = 0;    ///< of these
-  Box bounds;                   ///< of all that can be used, W
+  std::int64_t meant = 0;         ///< points of a class with a meaning
+  std::int64_t in_extents = 0;    ///< of these
+  std::int64_t near_box = 0;      ///< of these
+  std::int64_t unclassified = 0;  ///< points of class 0 or 1 without a meaning, in the extents and near the box
+  Box bounds;                     ///< of all that can be used, W
 };
 
 Census census_of(const CloudFile& cloud, const ClassMeanings& classes, const MapperConfig& config, const Box& near) {
@@ -30,11 +31,13 @@ Census census_of(const CloudFile& cloud, const ClassMeanings& classes, const Map
   for (const LabelledPoint& point : cloud.points) {
     ++census.of_class[point.class_number];
     census.bounds.extend(point.position);
-    if (!classes[point.class_number]) continue;
-    ++census.meant;
+    const bool is_meant = classes[point.class_number].has_value();
+    census.meant += is_meant ? 1 : 0;
     if (config.extents && !config.extents->contains(point.position)) continue;
-    ++census.in_extents;
-    if (near.contains(point.position)) ++census.near_box;
+    census.in_extents += is_meant ? 1 : 0;
+    if (!near.contains(point.position)) continue;
+    census.near_box += is_meant ? 1 : 0;
+    census.unclassified += !is_meant && point.class_number <= 1 ? 1 : 0;
   }
   return census;
 }
@@ -83,9 +86,9 @@ std::string reason_for_nothing(const CloudFile& cloud, const Census& census, con
   if (cloud.points.empty()) return "no point can be used: check origin, metres_per_unit and `label`" + properties;
   if (census.meant == 0) {
     return fmt::format(
-        "no point has a class with a meaning; classes present: {}. Name the class's property by `label`{}, "
-        "and what its numbers mean by `classes`",
-        classes_text(census, classes), properties);
+        "no point has a class with a meaning; classes present: {}. Say what the numbers mean by `classes`{}",
+        classes_text(census, classes),
+        properties.empty() ? "" : ", or which property is the class by `label`" + properties);
   }
   if (census.in_extents == 0) {
     return fmt::format("no point lies inside mapper.extents: the cloud reaches {}: check origin and metres_per_unit",
@@ -117,6 +120,13 @@ std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& 
   if (census.in_extents < census.meant) {
     remarks.push_back({fmt::format("{}: {} of {} points lie outside mapper.extents and are left out", source.file,
                                    census.meant - census.in_extents, census.meant)});
+  }
+  if (census.unclassified > 0) {
+    remarks.push_back(
+        {fmt::format("{}: {} points in or near uav.flight_box have class 0 or 1, to which no meaning is given, "
+                     "and leave no mark: `classes: {{0: occupied, 1: occupied}}` makes them obstacles",
+                     source.file, census.unclassified),
+         true});
   }
   if (cloud.spacing > kMaxSpacingShare * config.resolution) {
     remarks.push_back(

@@ -18,6 +18,7 @@ struct MapRemark {
 
 /// Returns one line on the points that are used, and a warning for each fact that may make the map wrong. Such facts
 /// are float32 coordinates that are too large for the resolution, and points that are not finite or too far away.
+/// Unclassified points among classified ones are a third.
 /// @param classes  meanings as configured, with semantics enabled
 /// @throws ConfigError if no point can mark a voxel. It names the counts per class and the file's properties. Either no
 ///   class has a meaning, or all points lie outside the extents, or far from the flight box.

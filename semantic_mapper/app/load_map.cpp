@@ -61,9 +61,11 @@ void set_meanings(const std::vector<std::pair<std::string, VoxelLabel>>& named, 
   }
 }
 
-/// Classes 0 and 1 of LAS are "never classified" and "unclassified".
-bool is_unlabelled(const CloudSource& source, const CloudFile& cloud) {
+/// Returns whether points of class 0 and 1 are geometry without a label. These classes of LAS are "never classified"
+/// and "unclassified"; beside classified points, `classes` may say what they mean.
+bool has_unlabelled(const CloudSource& source, const CloudFile& cloud, const MapperConfig& config) {
   if (source.format == CloudFormat::Ply) return !cloud.has_labels;
+  if (!config.has_own_classes && source.classes.empty()) return true;
   return std::all_of(cloud.points.begin(), cloud.points.end(),
                      [](const LabelledPoint& point) { return point.class_number <= 1; });
 }
@@ -72,7 +74,7 @@ ClassMeanings meanings_of(const CloudSource& source, const CloudFile& cloud, con
   ClassMeanings classes;
   set_meanings(config.classes, classes);
   set_meanings(source.classes, classes);
-  if (!is_unlabelled(source, cloud)) return classes;
+  if (!has_unlabelled(source, cloud, config)) return classes;
   for (const std::size_t number : {0U, 1U}) {
     if (!classes[number]) classes[number] = ClassMeaning{"unlabelled", VoxelLabel::Occupied};
   }
@@ -129,7 +131,14 @@ LoadedMap load_map(const Scenario& scenario, const MapperConfig& config, const c
   options.include = scenario.uav.flight_box;
   options.somewhere = scenario.uav.start;
   options.background = config.background;
-  loaded.map = value_or_throw(build_map(sources, options), scenario.file + ": mapper: ");
+  options.body = scenario.uav.body;
+  BuiltMap built = value_or_throw(build_map(sources, options), scenario.file + ": mapper: ");
+  loaded.map = std::move(built.map);
+  if (!built.cut.empty()) loaded.remarks.push_back({built.cut, true});
+  if (built.stood_in > 0) {
+    loaded.remarks.push_back(
+        {fmt::format("the vehicle at uav.start stands in {} occupied voxels; they are free", built.stood_in)});
+  }
   return loaded;
 }
 

@@ -10,7 +10,7 @@ namespace tern {
 
 struct LoadedMap {
   VoxelMap map;
-  std::vector<MapRemark> remarks;  ///< on each point cloud, in the order of the sources
+  std::vector<MapRemark> remarks;  ///< on each point cloud, in the order of the sources, then on the map
 };
 
 /// Returns the map of the scenario's regions, the configured point clouds and, if configured, its static obstacles.
@@ -18,8 +18,9 @@ struct LoadedMap {
 /// folder, then in data_folder().
 ///
 /// A cloud without labels is geometry: all its points are occupied, of class "unlabelled". These are PLY files without
-/// a class property, and LAS files whose points are all of class 0 or 1. A meaning that is configured for these classes
-/// has priority.
+/// a class property, and LAS files whose points are all of class 0 or 1. Among classified points of LAS, those of class
+/// 0 and 1 are occupied as well, unless `classes` is given. A meaning that is configured for these classes has
+/// priority. Occupied voxels in which the vehicle at uav.start stands are free (voxels_stood_in).
 /// @param environment  value of TERN_DATA; may be null
 /// @throws ConfigError with key and file: the file is missing, unreadable, refused by its reader, or has no effect
 ///   (report_cloud()). Also if the map would be too large.

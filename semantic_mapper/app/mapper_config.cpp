@@ -49,9 +49,9 @@ CloudFormat read_format(ConfigSection& section, const std::string& file) {
       section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}, "by the name, if not given");
   const bool is_known = is_ply || ending == ".las" || ending == ".LAS" || ending == ".laz" || ending == ".LAZ";
   if (!is_given && !is_known) {
-    throw section.error("file", fmt::format("{}: files named *{} are not read; LAS (*.las) and PLY (*.ply) are. "
+    throw section.error("file", fmt::format("{}: files {} are not read; LAS (*.las) and PLY (*.ply) are. "
                                             "`format` says which of them it is, if its name does not",
-                                            file, ending.empty() ? " without an ending" : ending));
+                                            file, ending.empty() ? "without an ending" : "named *" + ending));
   }
   return format == "ply" ? CloudFormat::Ply : CloudFormat::Las;
 }
@@ -122,6 +122,7 @@ MapperConfig read_mapper_config(ConfigSection section) {
   config.voxelize_obstacles = section.flag(
       "voxelize_obstacles", config.voxelize_obstacles,
       "the scenario's static obstacles become occupied voxels; the planner gets their exact boxes in any case");
+  config.has_own_classes = section.has("classes");
   config.classes = read_classes(section.section("classes"), section.has("classes"));
   for (const ConfigSection& source : section.list("sources")) config.sources.push_back(read_source(source));
   section.finish();

@@ -35,6 +35,7 @@ struct MapperConfig {
   VoxelLabel background = VoxelLabel::Free;
   bool voxelize_obstacles = false;
   std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< of point clouds: class or group name → label
+  bool has_own_classes = false;                             ///< false: `classes` are the defaults
   std::vector<CloudSource> sources;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "semantic_mapper/voxel_map/cloud_voxels.h"
 #include "semantic_mapper/voxel_map/voxel_painter.h"
@@ -38,15 +39,32 @@ Lattice lattice_of(const Box& box, double resolution) {
   return {first, (end - first).cwiseMax(1.0)};
 }
 
-Result<VoxelGrid> choose_grid(const MapSources& sources, const MapBuildOptions& options) {
-  Box box = options.extents ? *options.extents : bounds_of(sources);
+bool is_too_large(const Lattice& lattice) { return lattice.size.prod() > static_cast<double>(kMaxVoxels); }
+
+/// The grid's box, and why it is smaller than the sources.
+struct Room {
+  Box box;
+  std::string cut;
+};
+
+Room choose_room(const MapSources& sources, const MapBuildOptions& options) {
+  if (options.extents) return {*options.extents, ""};
+  Box box = bounds_of(sources);
   if (box.isEmpty()) box = Box(options.somewhere, options.somewhere);
-  if (!options.extents && !options.include.isEmpty()) {
-    const Box roomy = box.merged(options.include);
-    if (lattice_of(roomy, options.resolution).size.prod() <= static_cast<double>(kMaxRoomyVoxels)) box = roomy;
-  }
+  if (options.include.isEmpty()) return {box, ""};
+  const Box roomy = box.merged(options.include);
+  if (lattice_of(roomy, options.resolution).size.prod() <= static_cast<double>(kMaxRoomyVoxels)) return {roomy, ""};
+  if (!is_too_large(lattice_of(box, options.resolution))) return {box, ""};
+  const Box core = box.intersection(options.include);
+  if (core.isEmpty() || is_too_large(lattice_of(core, options.resolution))) return {box, ""};
+  return {core, fmt::format("the sources reach over {:g} × {:g} × {:g} m, too many voxels of {:g} m: the map is cut to "
+                            "uav.flight_box. Stray points? Give mapper.extents",
+                            box.sizes().x(), box.sizes().y(), box.sizes().z(), options.resolution)};
+}
+
+Result<VoxelGrid> grid_over(const Box& box, const MapBuildOptions& options) {
   const Lattice lattice = lattice_of(box, options.resolution);
-  if (lattice.size.prod() > static_cast<double>(kMaxVoxels)) {
+  if (is_too_large(lattice)) {
     return fail(fmt::format(
         "a map of {:g} × {:g} × {:g} m takes {:g} voxels of {} m (limit {}): give smaller extents or a "
         "coarser resolution",
@@ -95,8 +113,9 @@ VoxelLabel label_of(const std::string& class_name, const MapSources& sources) {
 
 }  // namespace
 
-Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& options) {
-  const auto grid = choose_grid(sources, options);
+Result<BuiltMap> build_map(const MapSources& sources, const MapBuildOptions& options) {
+  Room room = choose_room(sources, options);
+  const auto grid = grid_over(room.box, options);
   if (!grid) return tl::unexpected(grid.error());
   VoxelPainter painter(*grid, options.background);
   for (const Region& region : sources.regions) paint_region(region, label_of(region.class_name, sources), painter);
@@ -109,7 +128,11 @@ Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& opt
     return fail(
         fmt::format("sources[{}].min_points: no voxel has {} marks of one label", k, sources.clouds[k].min_points));
   }
-  return painter.finish();
+  BuiltMap built;
+  if (options.body) built.stood_in = painter.free_standing_place(*options.body, options.somewhere);
+  built.map = painter.finish();
+  built.cut = std::move(room.cut);
+  return built;
 }
 
 }  // namespace tern

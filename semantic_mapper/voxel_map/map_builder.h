@@ -10,6 +10,7 @@
 
 #include "core/base/result.h"
 #include "core/world/region.h"
+#include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
 #include "semantic_mapper/sources/point_cloud.h"
 
@@ -48,8 +49,15 @@ struct MapBuildOptions {
   double resolution = 0.25;       ///< m, > 0
   std::optional<Box> extents;     ///< W, m; nullopt: the bounds of all sources, enlarged by `include`
   Box include;                    ///< added to the bounds if the map then has at most kMaxRoomyVoxels (the flight box)
-  Vec3 somewhere = Vec3::Zero();  ///< W, m: position of the single voxel of a map without sources
+  Vec3 somewhere = Vec3::Zero();  ///< W, m: the start, and position of the single voxel of a map without sources
   VoxelLabel background = VoxelLabel::Free;  ///< label of voxels without a source
+  std::optional<Body> body;  ///< a vehicle that stands at `somewhere`: the occupied voxels that it is in become free
+};
+
+struct BuiltMap {
+  VoxelMap map;
+  std::int64_t stood_in = 0;  ///< voxels that were freed, since the vehicle stands in them
+  std::string cut;            ///< why points are left out although mapper.extents is not given; "" if none are
 };
 
 /// `include` enlarges the bounds only if the map then has at most this many voxels.
@@ -63,9 +71,12 @@ inline constexpr std::int64_t kMaxRoomyVoxels = 8'000'000;
 ///    voxel's diagonal of its outline.) Other regions mark the voxels whose centre they contain.
 /// 3. The grid's corner is a multiple of the resolution, so the voxels do not depend on the extents. Sources are cut
 ///    at the extents.
+/// 4. Voxels in which the vehicle stands become free (voxels_stood_in).
+/// 5. Without extents, a map that would be too large is cut to the flight box, `include`: a few stray points must not
+///    refuse a cloud.
 ///
 /// @return an Error with extents and limits if the map would have more than kMaxVoxels. An Error with min_points if no
 ///   voxel of a cloud reaches that number of marks.
-Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& options);
+Result<BuiltMap> build_map(const MapSources& sources, const MapBuildOptions& options);
 
 }  // namespace tern

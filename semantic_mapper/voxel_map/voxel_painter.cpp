@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/world/message_limits.h"
+#include "semantic_mapper/voxel_map/standing_place.h"
 
 namespace tern {
 namespace {
@@ -67,6 +68,15 @@ void VoxelPainter::paint_if(const Box& region, VoxelLabel label, std::uint8_t cl
       }
     }
   }
+}
+
+std::int64_t VoxelPainter::free_standing_place(const Body& body, const Vec3& p) {
+  const std::vector<std::int64_t> voxels = voxels_stood_in(map_.grid, map_.labels, body, p);
+  for (const std::int64_t voxel : voxels) {
+    map_.labels[idx(voxel)] = VoxelLabel::Free;
+    map_.classes[idx(voxel)] = 0;
+  }
+  return std::ssize(voxels);
 }
 
 VoxelMap VoxelPainter::finish() {

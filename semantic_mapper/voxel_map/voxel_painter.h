@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
 
 namespace tern {
@@ -23,6 +24,9 @@ class VoxelPainter {
   /// Labels the voxels that overlap `region` and for whose box `inside` returns true.
   void paint_if(const Box& region, VoxelLabel label, std::uint8_t class_index,
                 const std::function<bool(const Box&)>& inside);
+
+  /// Frees the voxels in which the body at p stands (voxels_stood_in). @return how many
+  std::int64_t free_standing_place(const Body& body, const Vec3& p);
 
   [[nodiscard]] const VoxelGrid& grid() const { return map_.grid; }
   /// Returns the map with its version. The painter is empty afterwards.

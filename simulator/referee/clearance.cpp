@@ -129,7 +129,7 @@ double ClearanceWatch::search(const Pair& pair, double t0_s, double t1_s) {
   const double enough = sign_open ? kContactTolerance : kClearanceTolerance;
   const double best = sign_open ? upper : min_;  // min_ may be another obstacle's overlap
   const bool settled = best - lower <= enough || h < kMinIntervalDuration;
-  if (settled) return upper < 0.0 ? at : kNone;
+  if (settled) return upper < -kTouchTolerance ? at : kNone;
   const double middle = t0_s + 0.5 * h;
   const double early = search(pair, t0_s, middle);
   const double late = search(pair, middle, t1_s);

@@ -17,10 +17,12 @@ namespace tern {
 inline constexpr double kClearanceTolerance = 1e-3;
 /// The sign of the minimum is right if its magnitude is at least this, m.
 inline constexpr double kContactTolerance = 1e-6;
+/// Bodies that overlap by less than this touch, and are not in contact, m: rounding of coordinates up to 1e5 m.
+inline constexpr double kTouchTolerance = 1e-9;
 /// Accuracy of the time of the first contact, s.
 inline constexpr double kContactTimeResolution = 1e-6;
 
-/// A body's first overlap with an obstacle.
+/// A body's first overlap with an obstacle, beyond kTouchTolerance.
 struct Contact {
   double time_s = 0.0;  ///< world time
   std::int64_t id = 0;  ///< of the obstacle

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +16,6 @@
 namespace tern {
 namespace {
 
-constexpr double kMaxWholeId = 1e15;
 constexpr double kClearSample = 0.01;  // s
 
 std::string wrong_spec(const RecordedTracksSpec& spec) {
@@ -31,71 +29,135 @@ std::string wrong_spec(const RecordedTracksSpec& spec) {
   if (!(spec.metres_per_unit > 0.0 && spec.metres_per_unit <= 1e6)) {
     return fmt::format("metres_per_unit {}, not in (0, 1e6]", spec.metres_per_unit);
   }
-  if (!(spec.frames_per_second > 0.0 && spec.frames_per_second <= 1e5)) {
-    return fmt::format("frames_per_second {}, not in (0, 1e5]", spec.frames_per_second);
+  if (!(spec.frames_per_second > 0.0 && spec.frames_per_second <= kMaxFrameRate)) {
+    return fmt::format("frames_per_second {}, not in (0, {:g}]", spec.frames_per_second, kMaxFrameRate);
   }
   return {};
 }
 
-/// Cuts the next word off `line`.
-std::string_view next_word(std::string_view& line) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t begin = line.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  line.remove_prefix(begin);
-  const std::string_view word = line.substr(0, line.find_first_of(kBlank));
-  line.remove_prefix(word.size());
-  return word;
+/// A track is cut where it has no position for longer than this: for kGapSteps of its median steps, and kMinGap_s.
+constexpr double kGapSteps = 10.0;
+constexpr double kMinGap_s = 2.0;
+/// A step is called a jump if it is this much faster than the track's median, and than kMinJumpSpeed. A step faster
+/// than kMaxSpeed is one in any case: two objects with one id make every step a jump.
+constexpr double kJumpRatio = 5.0;
+constexpr double kMinJumpSpeed = 10.0;  // m/s
+constexpr double kMaxSpeed = 50.0;      // m/s
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
-std::optional<double> to_number(std::string_view word) {
-  if (word.size() > 1 && word.front() == '+') word.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+/// What the rows' times count from, in frames: 0, or the first frame if times are too large, as Unix times are.
+double origin_of(const std::vector<TrackRow>& rows, double rate) {
+  const auto [first, last] = std::ranges::minmax(rows, {}, &TrackRow::frame);
+  const double most = std::max(std::abs(first.frame), std::abs(last.frame)) / rate;
+  return most > WorldObstacle::kMaxCoordinate ? first.frame : 0.0;
 }
 
-/// Fills `numbers`. @return the fault of the line, or ""
-std::string read_row(std::string_view line, int columns, std::vector<double>& numbers) {
-  numbers.clear();
-  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-    const std::optional<double> value = to_number(word);
-    if (!value) return fmt::format("'{}' is not a finite number", word.substr(0, 40));
-    numbers.push_back(*value);
-    if (numbers.size() > static_cast<std::size_t>(columns)) break;
+/// How many rows were treated in which way.
+struct RowCounts {
+  std::int64_t repeated = 0;  ///< the same id and time as another
+  std::int64_t sorted = 0;    ///< tracks whose rows were not in order
+  std::int64_t cut = 0;       ///< gaps
+  std::int64_t alone = 0;     ///< positions without a neighbour in time
+  std::int64_t jumps = 0;
+  double fastest = 0.0;  ///< of the jumps, m/s
+  std::int64_t fastest_id = 0;
+};
+
+/// Sorts the positions by time and leaves out those of the same microsecond, or sooner than least_step_s.
+void put_in_order(RecordedTrack& track, double least_step_s, RowCounts& counts) {
+  auto& points = track.points;
+  const auto by_time = [](const auto& a, const auto& b) { return a.first < b.first; };
+  if (!std::ranges::is_sorted(points, by_time)) {
+    ++counts.sorted;
+    std::ranges::stable_sort(points, by_time);
   }
-  if (numbers.size() == static_cast<std::size_t>(columns)) return {};
-  return fmt::format("{} columns{}, {} expected", numbers.size(),
-                     numbers.size() > static_cast<std::size_t>(columns) ? " or more" : "", columns);
+  auto kept = points.begin();
+  for (auto p = points.begin(); p != points.end(); ++p) {
+    if (p != points.begin()) {
+      const bool is_same = whole_microseconds(p->first) <= whole_microseconds(kept->first);
+      counts.repeated += is_same ? 1 : 0;
+      if (is_same || p->first < kept->first + least_step_s) continue;
+      ++kept;
+    }
+    *kept = *p;
+  }
+  if (!points.empty()) points.erase(kept + 1, points.end());
 }
 
-/// Adds a row to the tracks. @return its fault, or ""
-std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& spec,
-                    std::map<std::int64_t, RecordedTrack>& tracks) {
-  const auto number = [&](int column) { return row[idx(column)]; };
-  const double id = spec.id_column < 0 ? 0.0 : number(spec.id_column);
-  if (id != std::floor(id) || std::abs(id) > kMaxWholeId) return fmt::format("id {} is not a whole number", id);
-  const double time = number(spec.frame_column) / spec.frames_per_second;
-  if (std::abs(time) > WorldObstacle::kMaxCoordinate) {
-    return fmt::format("frame {} is at {} s, beyond {} s", number(spec.frame_column), time,
-                       WorldObstacle::kMaxCoordinate);
+/// Counts the steps that are too fast to be a motion.
+void find_jumps(const RecordedTrack& track, RowCounts& counts) {
+  std::vector<double> speeds;
+  for (std::size_t k = 1; k < track.points.size(); ++k) {
+    const auto& [t0, p0] = track.points[k - 1];
+    const auto& [t1, p1] = track.points[k];
+    speeds.push_back((p1 - p0).norm() / (t1 - t0));
   }
-  const double unit = spec.metres_per_unit;
-  const Vec3 p(number(spec.x_column) * unit, number(spec.y_column) * unit,
-               spec.z_column ? number(*spec.z_column) * unit : spec.centre_z);
-  if (!(p.cwiseAbs().maxCoeff() <= WorldObstacle::kMaxCoordinate)) {
-    return fmt::format("position ({}, {}, {}) m, beyond {} m", p.x(), p.y(), p.z(), WorldObstacle::kMaxCoordinate);
+  if (speeds.empty()) return;
+  const double limit = std::clamp(kJumpRatio * median_of(speeds), kMinJumpSpeed, kMaxSpeed);
+  for (const double speed : speeds) {
+    if (speed <= limit) continue;
+    ++counts.jumps;
+    if (speed > counts.fastest) {
+      counts.fastest = speed;
+      counts.fastest_id = track.id;
+    }
   }
-  RecordedTrack& track = tracks[static_cast<std::int64_t>(id)];
-  track.id = static_cast<std::int64_t>(id);
-  if (!track.points.empty() && !(whole_microseconds(time) > whole_microseconds(track.points.back().first))) {
-    return fmt::format("id {}: frame {} after frame {}, frames must ascend", track.id, number(spec.frame_column),
-                       track.points.back().first * spec.frames_per_second);
+}
+
+/// Adds the track, cut at its gaps. A part of a cut track that has one position is left out.
+void add_parts(RecordedTrack track, std::vector<RecordedTrack>& parts, RowCounts& counts) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < track.points.size(); ++k) {
+    steps.push_back(track.points[k].first - track.points[k - 1].first);
   }
-  if (!track.points.empty() && time < track.points.back().first + spec.least_step_s) return {};
-  track.points.emplace_back(time, p);
-  return {};
+  const double gap = steps.empty() ? 0.0 : std::max(kMinGap_s, kGapSteps * median_of(steps));
+  RecordedTrack part{track.id, {}, 0};
+  const auto finish = [&] {
+    find_jumps(part, counts);
+    const bool is_alone = part.points.size() == 1 && track.points.size() > 1;
+    counts.alone += is_alone ? 1 : 0;
+    if (!is_alone) parts.push_back(part);
+    part = {track.id, {}, part.part + 1};
+  };
+  for (std::size_t k = 0; k < track.points.size(); ++k) {
+    if (k > 0 && steps[k - 1] > gap) {
+      ++counts.cut;
+      finish();
+    }
+    part.points.push_back(track.points[k]);
+  }
+  finish();
+}
+
+std::vector<std::string> remarks_on(const std::string& name, const TrackRows& rows, double origin,
+                                    const RowCounts& counts) {
+  std::vector<std::string> remarks;
+  const auto remark = [&](bool applies, const std::string& text) {
+    if (applies) remarks.push_back(fmt::format("{}: {}", name, text));
+  };
+  const auto all = static_cast<std::int64_t>(rows.rows.size()) + rows.not_finite;
+  remark(origin != 0.0, fmt::format("its times count from the first one, {:.15g}", origin));
+  remark(rows.not_finite > 0,
+         fmt::format("{} of {} rows are left out: a number is missing or not finite", rows.not_finite, all));
+  remark(counts.repeated > 0, fmt::format("{} of {} rows are left out: their track has an earlier row of the same time",
+                                          counts.repeated, all));
+  remark(counts.sorted > 0,
+         fmt::format("the rows of {} tracks were not in the order of time; they are sorted", counts.sorted));
+  remark(counts.cut > 0,
+         fmt::format("tracks are cut at {} gaps longer than {:g} s and {:g} steps; an id may name different objects",
+                     counts.cut, kMinGap_s, kGapSteps));
+  remark(counts.alone > 0, fmt::format("{} positions are left out: they stand alone between gaps", counts.alone));
+  remark(counts.jumps > 0,
+         fmt::format(
+             "{} steps are faster than {:g} m/s, or than {:g} m/s and {:g} times their track's median. The fastest "
+             "has {:.3g} m/s, in track {}: an id may have changed its owner",
+             counts.jumps, kMaxSpeed, kMinJumpSpeed, kJumpRatio, counts.fastest, counts.fastest_id));
+  return remarks;
 }
 
 /// Times at which a track is near the start, ascending.
@@ -122,31 +184,37 @@ std::vector<double> crowded_instants(const std::vector<RecordedTrack>& tracks, c
 
 }  // namespace
 
-Result<std::vector<RecordedTrack>> parse_recorded_tracks(std::string_view text, const std::string& name,
-                                                         const RecordedTracksSpec& spec) {
+Result<RecordedFile> parse_recorded_tracks(std::string_view text, const std::string& name,
+                                           const RecordedTracksSpec& spec) {
   if (const std::string wrong = wrong_spec(spec); !wrong.empty()) return fail(fmt::format("{}: {}", name, wrong));
-  std::map<std::int64_t, RecordedTrack> tracks;
-  std::vector<double> row;
-  std::size_t line_number = 0;
-  std::size_t rows = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++line_number;
-    std::string_view rest = line;
-    const std::string_view first = next_word(rest);
-    if (first.empty() || first.front() == '#') continue;
-    std::string wrong = read_row(line, spec.columns, row);
-    if (wrong.empty()) wrong = add_row(row, spec, tracks);
-    if (wrong.empty() && ++rows > kMaxTrackRows) wrong = fmt::format("more than {} rows", kMaxTrackRows);
-    if (!wrong.empty()) return fail(fmt::format("{}:{}: {}", name, line_number, wrong));
+  const auto read = read_track_rows(text, name, spec);
+  if (!read) return tl::unexpected(read.error());
+  if (read->rows.empty()) {
+    const std::string why = read->not_finite > 0 ? fmt::format(": {} lack a finite number", read->not_finite) : "";
+    return fail(fmt::format("{}: no rows{}", name, why));
   }
-  if (tracks.empty()) return fail(fmt::format("{}: no rows", name));
-  std::vector<RecordedTrack> sorted;
-  sorted.reserve(tracks.size());
-  for (auto& [id, track] : tracks) sorted.push_back(std::move(track));
-  return sorted;
+  const double origin = origin_of(read->rows, spec.frames_per_second);
+  std::map<std::int64_t, RecordedTrack> tracks;
+  for (const TrackRow& row : read->rows) {
+    const double time = (row.frame - origin) / spec.frames_per_second;
+    if (!(std::abs(time) <= WorldObstacle::kMaxCoordinate)) {
+      return fail(
+          fmt::format("{}:{}: frame {:.15g} is {:.6g} s after the first, beyond {} s: `frames_per_second` is 1 "
+                      "for seconds, 1e9 for nanoseconds",
+                      name, row.line, row.frame, time, WorldObstacle::kMaxCoordinate));
+    }
+    RecordedTrack& track = tracks[row.id];
+    track.id = row.id;
+    track.points.emplace_back(time, row.p);
+  }
+  RecordedFile file;
+  RowCounts counts;
+  for (auto& [id, track] : tracks) {
+    put_in_order(track, spec.least_step_s, counts);
+    add_parts(std::move(track), file.tracks, counts);
+  }
+  file.remarks = remarks_on(name, *read, origin, counts);
+  return file;
 }
 
 Result<std::string> find_track_file(const std::string& file, const std::string& scenario_file,
@@ -169,7 +237,7 @@ Result<std::string> find_track_file(const std::string& file, const std::string& 
                           data_dir.empty() ? " (TERN_DATA names no folder)" : ""));
 }
 
-Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec) {
+Result<RecordedFile> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) return fail(fmt::format("{}: {}", path, error.message()));
@@ -210,7 +278,7 @@ std::vector<ObstacleSpec> recorded_obstacles(const std::vector<RecordedTrack>& t
     for (const auto& [t, p] : track.points) motion.points.emplace_back(whole_microseconds(t - start_s), p);
     if (motion.points.size() < 2 || motion.points.back().first <= 0.0) continue;
     ObstacleSpec o;
-    o.name = fmt::format("{}#{}", stem, track.id);
+    o.name = fmt::format("{}#{}{}", stem, track.id, track.part > 0 ? fmt::format(".{}", track.part + 1) : "");
     o.half_extents = spec.half_extents;
     o.motion = std::move(motion);
     obstacles.push_back(std::move(o));

@@ -10,32 +10,47 @@
 #include "core/base/result.h"
 #include "core/base/types.h"
 #include "core/world/scenario.h"
+#include "simulator/worlds/track_rows.h"
 
 namespace tern {
 
 inline constexpr std::size_t kMaxTrackFileBytes = 64u << 20;
-inline constexpr std::size_t kMaxTrackRows = 2'000'000;
-inline constexpr int kMaxTrackColumns = 64;
+inline constexpr double kMaxFrameRate = 1e9;  ///< 1/s: times in nanoseconds
 
 /// A recorded path: straight lines between frames; absent before the first and after the last.
 struct RecordedTrack {
-  std::int64_t id = 0;  ///< as in the file; 0 if the file is one track
-  std::vector<std::pair<double, Vec3>>
-      points;  ///< (frame / frames_per_second, box centre in W, m), times ascending, ≥ 1
+  std::int64_t id = 0;                          ///< as in the file; 0 if the file is one track
+  std::vector<std::pair<double, Vec3>> points;  ///< (time in s, box centre in W, m), times ascending, ≥ 1
+  int part = 0;                                 ///< of a track that is cut at its gaps, from 0
 };
 
-/// Parses the tracks of a file's text, sorted by id.
+/// The tracks of a file, and what the user should know of them.
+struct RecordedFile {
+  std::vector<RecordedTrack> tracks;  ///< sorted by id, then by time
+  std::vector<std::string> remarks;   ///< whole sentences: rows that are left out, cuts, jumps
+};
+
+/// Parses the tracks of a file's text; read_track_rows() has the form of a row.
 ///
-/// A line holds exactly spec.columns numbers. Blank lines and lines that begin with '#' are skipped. z is read if
-/// spec.z_column is set, otherwise it is spec.centre_z. Rows of one id have ascending frames; rows of several ids may
-/// be mixed. A row less than spec.least_step_s after the last kept row of its id is skipped.
-/// @param name  name of the file in errors
-/// @return an Error "name:line: …" with value and limit, for
-///  - a wrong number of columns, a number that is infinite or NaN, a fractional id,
-///  - descending frames, an excess of rows, coordinates beyond WorldObstacle::kMaxCoordinate, or
+/// | in the file                                          | effect                                                   |
+/// |------------------------------------------------------|----------------------------------------------------------|
+/// | a time beyond ±1e5 s, as Unix times are              | all times count from the first one                       |
+/// | rows of an id not in the order of time               | sorted                                                   |
+/// | a second row of an id and microsecond                | left out, counted                                        |
+/// | a row less than spec.least_step_s after the last one | left out                                                 |
+/// | a row without a finite number                        | left out, counted                                        |
+/// | no row of an id for 10 median steps and 2 s          | the track is cut: an id may be reused                    |
+/// | one row alone between two gaps                       | left out, counted                                        |
+/// | a step faster than 50 m/s, or 10 m/s and 5 medians   | remark: an id may have changed its owner                 |
+///
+/// A time is frame / spec.frames_per_second, s.
+/// @param name  name of the file in errors and remarks
+/// @return an Error for
+///  - the faults of read_track_rows(), or no rows,
+///  - times that span more than 1e5 s, or
 ///  - impossible column indices, unit or rate of the spec.
-Result<std::vector<RecordedTrack>> parse_recorded_tracks(std::string_view text, const std::string& name,
-                                                         const RecordedTracksSpec& spec);
+Result<RecordedFile> parse_recorded_tracks(std::string_view text, const std::string& name,
+                                           const RecordedTracksSpec& spec);
 
 /// Finds `file`: itself if absolute, else in the folder of `scenario_file`, else in `data_dir` ("": none).
 /// @return the first path that exists, or an Error with all paths tried.
@@ -44,7 +59,7 @@ Result<std::string> find_track_file(const std::string& file, const std::string& 
 
 /// Reads a file of at most kMaxTrackFileBytes by parse_recorded_tracks. No other function of the simulator's libraries
 /// reads a file.
-Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec);
+Result<RecordedFile> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec);
 
 /// Returns the time of the file at world time 0, if it is not drawn: spec.start_s. With spec.wait_for_clear_start it is
 /// the first whole frame number from there on with a clear start. The file may have no row of that frame.
@@ -56,7 +71,8 @@ Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const Re
                               const Vec3& start);
 
 /// Returns the tracks as obstacles, with world time 0 at `start_s` of the file: vanishing waypoint motions named
-/// "<file's stem>#<id>". Tracks that have ended by then, or have only one frame, are left out.
+/// "<file's stem>#<id>", further parts of a cut track "<file's stem>#<id>.2" and so on. Tracks that have ended by then,
+/// or have only one frame, are left out.
 std::vector<ObstacleSpec> recorded_obstacles(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                                              double start_s);
 

@@ -28,23 +28,25 @@ Result<std::vector<ObstacleSpec>> recorded_specs(World& world, const Scenario& s
                                                  const std::string& data_dir) {
   const auto file = find_track_file(recorded.file, scenario.file, data_dir);
   if (!file) return tl::unexpected(file.error());
-  auto tracks = load_recorded_tracks(*file, recorded);
-  if (!tracks) return tl::unexpected(tracks.error());
+  auto read = load_recorded_tracks(*file, recorded);
+  if (!read) return tl::unexpected(read.error());
+  world.remarks.insert(world.remarks.end(), read->remarks.begin(), read->remarks.end());
+  std::vector<RecordedTrack>& tracks = read->tracks;
   if (recorded.copies > 0) {
-    auto copies = scatter_copies(rng, *tracks, recorded, scenario.uav.start, flight_timeout_s(scenario));
+    auto copies = scatter_copies(rng, tracks, recorded, scenario.uav.start, flight_timeout_s(scenario));
     if (!copies) return tl::unexpected(copies.error());
     world.redrawn += copies->redrawn;
     return std::move(copies->obstacles);
   }
-  const auto start = recorded.start_s ? recorded_start(*tracks, recorded, scenario.uav.start)
-                                      : draw_start(rng, *tracks, recorded, scenario.uav);
+  const auto start = recorded.start_s ? recorded_start(tracks, recorded, scenario.uav.start)
+                                      : draw_start(rng, tracks, recorded, scenario.uav);
   if (!start) return tl::unexpected(start.error());
   world.recorded_start_s.push_back(*start);
   if (!recorded.start_s) {
     world.left_out += static_cast<int>(std::erase_if(
-        *tracks, [&](const RecordedTrack& track) { return crowds_start(track, *start, scenario.uav.start); }));
+        tracks, [&](const RecordedTrack& track) { return crowds_start(track, *start, scenario.uav.start); }));
   }
-  return recorded_obstacles(*tracks, recorded, *start);
+  return recorded_obstacles(tracks, recorded, *start);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct World {
   int redrawn = 0;                       ///< draws of generator and copies that start or goal refused
   int left_out = 0;                      ///< recorded people that crowd a drawn start
   std::vector<double> recorded_start_s;  ///< per recorded file without copies: its time at world time 0, s
+  std::vector<std::string> remarks;      ///< on the recorded files (RecordedFile)
 };
 
 /// Makes the world of scenario.world with scenario.seed. Start and goal of scenario.uav affect the redraws

@@ -107,6 +107,26 @@ TEST(Planner, NeverReturnsAPlanTheCheckerRejects) {
   }
 }
 
+TEST(Planner, LeavesTheGroundItStandsOnAndComesNoNearer) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Rng rng(seed);
+    const Vec3 home(0, 0, 1);
+    HorizonRequest request = request_at(kStart, resting_at(home, kStart - Duration{1'000'000}));
+    request.body = body_of(kBodyKinds[seed % 2]);
+    const double top = home.z() - request.body.half_extents().z();
+    std::vector<Track> tracks{standing_box(1, Box(Vec3(-9, -9, top - 1.0), Vec3(9, 9, top)), kStart)};
+    const Vec3 goal(rng.uniform(-6.0, 6.0), rng.uniform(-6.0, 6.0), rng.uniform(1.1, 4.0));
+    const PlanningWorld world = world_of(std::move(tracks), go_to(goal), request, quick());
+    const Plan got = answer(request, world);
+    ASSERT_NE(got.outcome, PlanOutcome::NoPlan) << "seed " << seed << " " << static_cast<int>(got.reason);
+    const ClampedSpline spline = got.trajectory.spline();
+    ASSERT_GT((spline.sample(spline.duration_s()).p - home).norm(), 0.3) << "seed " << seed;
+    for (double t = 0.0; t < spline.duration_s(); t += 0.002) {
+      ASSERT_GE(spline.sample(t).p.z(), home.z() - kBoxTolerance) << "seed " << seed;
+    }
+  }
+}
+
 TEST(Planner, EveryAnswerOnTheWayIsCertifiedTooAndTheFirstIsTheFallback) {
   for (std::uint64_t seed = 501; seed <= 560; ++seed) {
     const Draw d = random_draw(seed);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/geometry/box.h"
 #include "core/geometry/distance.h"
 #include "core/geometry/separation.h"
@@ -88,6 +90,44 @@ TEST(ClearStart, ABoxOfTheMapHasNoAlphaToGive) {
   EXPECT_TRUE(result.collides);
   EXPECT_FALSE(result.relaxed);
   EXPECT_EQ(obstacles[0].alpha.scale, 1.0);
+}
+
+/// The floor under a sphere of 0.1 m at the origin; `gap` between them.
+std::vector<PlanningObstacle> floor_below(double gap) {
+  return {{-1, nullptr, Box(Vec3(-3, -3, -1), Vec3(3, 3, -0.1 - gap)), {}}};
+}
+
+TEST(LeaveTouched, ConfinesTheCentreToItsSideOfAFaceThatItTouches) {
+  auto obstacles = floor_below(0.0);
+  const Box side = leave_touched(obstacles, Body{}, Vec3::Zero());
+  EXPECT_TRUE(obstacles.empty());
+  EXPECT_EQ(side.min().z(), 0.0);
+  EXPECT_TRUE(std::isinf(side.max().z()));
+  EXPECT_TRUE(std::isinf(side.min().x()));
+  EXPECT_FALSE(clear_start(obstacles, Body{}, Vec3::Zero(), kNow).collides);
+
+  const std::vector<Track> ceiling{standing_box(7, Box(Vec3(-3, -3, 0.1), Vec3(3, 3, 1)), kNow)};
+  auto above = obstacles_of(ceiling);
+  EXPECT_EQ(leave_touched(above, Body{}, Vec3::Zero()).max().z(), 0.0);
+  EXPECT_TRUE(above.empty());
+}
+
+TEST(LeaveTouched, LeavesAloneWhatTheBodyOverlapsOrDoesNotTouch) {
+  for (const double gap : {-1e-3, -1e-5, 1e-5, 1e-3}) {
+    auto obstacles = floor_below(gap);
+    EXPECT_TRUE(std::isinf(leave_touched(obstacles, Body{}, Vec3::Zero()).min().z())) << gap;
+    ASSERT_EQ(obstacles.size(), 1u) << gap;
+    EXPECT_EQ(clear_start(obstacles, Body{}, Vec3::Zero(), kNow).collides, gap < 0.0) << gap;
+  }
+  // The bounds of the sphere touch this box, the sphere does not.
+  std::vector<PlanningObstacle> beside{{-1, nullptr, Box(Vec3(0.1, 0.08, 0.08), Vec3(1, 1, 1)), {}}};
+  EXPECT_TRUE(std::isinf(leave_touched(beside, Body{}, Vec3::Zero()).max().x()));
+  EXPECT_EQ(beside.size(), 1u);
+  // A mover that touches is no ground.
+  const std::vector<Track> movers{straight_mover(1, Vec3(0, 0, -0.3), Vec3(0.1, 0, 0), 0.2, kNow, 1.0)};
+  auto moving = obstacles_of(movers);
+  EXPECT_TRUE(std::isinf(leave_touched(moving, Body{}, Vec3::Zero()).min().z()));
+  EXPECT_EQ(moving.size(), 1u);
 }
 
 }  // namespace

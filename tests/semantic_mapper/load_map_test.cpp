@@ -197,9 +197,57 @@ TEST_F(LoadMapTest, WarnsOfWhatIsLeftOutAndOfCoordinatesThatAreTooLarge) {
   EXPECT_THAT(survey[1].text, HasSubstr("float32 coordinates are exact to 0.5 m, and voxels have 0.25 m"));
 }
 
+TEST_F(LoadMapTest, UnclassifiedPointsAmongClassifiedOnesAreOccupiedUnlessClassesAreGiven) {
+  PointCloud points = wall(1);
+  points.push_back({Vec3(1, 1, 0), 2});
+  write("mixed.las", support::las_file(points, {}));
+  const LoadedMap by_default = load_all(with_source("file: mixed.las"));
+  EXPECT_EQ(by_default.remarks.size(), 1u);
+  EXPECT_GT(count(by_default.map, VoxelLabel::Occupied), 250);
+  const LoadedMap chosen = load_all(with_source("file: mixed.las", "classes: {ground: occupied}, "));
+  ASSERT_EQ(chosen.remarks.size(), 2u);
+  EXPECT_TRUE(chosen.remarks[1].is_warning);
+  EXPECT_THAT(chosen.remarks[1].text, HasSubstr("1891 points in or near uav.flight_box have class 0 or 1"));
+  EXPECT_EQ(count(chosen.map, VoxelLabel::Occupied), 1);
+  const LoadedMap named = load_all(with_source("file: mixed.las, classes: {1: occupied}"));
+  EXPECT_EQ(named.remarks.size(), 1u);
+  EXPECT_GT(count(named.map, VoxelLabel::Occupied), 250);
+}
+
+TEST_F(LoadMapTest, LabelsOfMinusOneAreLeftOutAndCounted) {
+  std::string text =
+      "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float y\r\n"
+      "property float z\r\nproperty int label\r\nend_header\r\n"
+      "10 0 1 6\r\n10 0 1.5 -1\r\nnan 0 1 6\r\n";
+  write("none.ply", {text.begin(), text.end()});
+  const LoadedMap loaded = load_all(with_source("file: none.ply"));
+  EXPECT_EQ(count(loaded.map, VoxelLabel::Occupied), 1);
+  EXPECT_THAT(loaded.remarks.at(1).text,
+              HasSubstr("of 3 points 1 are not finite, 1 have a label that is no class number (0 to 255)"));
+}
+
+TEST_F(LoadMapTest, AVehicleThatStandsOnScannedGroundIsNotInTheMap) {
+  PointCloud ground;
+  for (int i = 0; i < 60; ++i) {
+    for (int j = 0; j < 30; ++j) {
+      ground.push_back({Vec3(0.2 * i - 2.0, 0.2 * j - 3.0, 0.02 * ((i + j) % 3 - 1)), 2});
+    }
+  }
+  write("ground.las", support::las_file(ground, {}));
+  const std::string rest =
+      ", goal: [9, 0, 1], body: {radius: 0.3}, flight_box: {min: [-2, -3, -1], max: [12, 3, 4]}}\n"
+      "mapper: {sources: [{file: ground.las}]}";
+  const LoadedMap stands = load_all("uav: {start: [0, 0, 0.32]" + rest);
+  EXPECT_THAT(stands.remarks.back().text, HasSubstr("stands in"));
+  const LoadedMap touches = load_all("uav: {start: [0, 0, 0.55]" + rest);
+  EXPECT_EQ(touches.remarks.size(), 1u);
+  EXPECT_GT(count(touches.map, VoxelLabel::Occupied), count(stands.map, VoxelLabel::Occupied));
+}
+
 TEST_F(LoadMapTest, AFileOfAnotherFormatIsNamedAsSuch) {
   EXPECT_THAT(error_of(with_source("file: wall.pcd")),
               HasSubstr("wall.pcd: files named *.pcd are not read; LAS (*.las)"));
+  EXPECT_THAT(error_of(with_source("file: wall")), HasSubstr("wall: files without an ending are not read"));
   EXPECT_THAT(error_of(with_source("file: wall.pcd, format: ply")), HasSubstr("wall.pcd not found"));
 }
 

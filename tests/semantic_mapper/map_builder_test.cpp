@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/geometry/box.h"
+
 namespace tern {
 namespace {
 
@@ -29,7 +31,7 @@ MapSources sources_of(std::vector<Region> regions) {
 VoxelMap build(const MapSources& sources, const MapBuildOptions& options = {}) {
   auto map = build_map(sources, options);
   EXPECT_TRUE(map) << map.error().message;
-  return map ? *map : VoxelMap{};
+  return map ? map->map : VoxelMap{};
 }
 
 VoxelLabel label_at(const VoxelMap& map, const Vec3& p) {
@@ -126,6 +128,61 @@ TEST(MapBuilder, RefusesAMapThatIsTooLarge) {
   const auto map = build_map(sources_of({}), options);
   ASSERT_FALSE(map);
   EXPECT_THAT(map.error().message, HasSubstr("limit 200000000"));
+}
+
+TEST(MapBuilder, AStrayPointFarAwayDoesNotRefuseTheRest) {
+  MapSources sources = sources_of({region("wall", Box(Vec3(4, -2, 0), Vec3(4.5, 2, 2)))});
+  sources.regions.push_back(region("wall", Box(Vec3(8e4, 8e4, 8e4), Vec3(8e4 + 1, 8e4 + 1, 8e4 + 1))));
+  MapBuildOptions options;
+  EXPECT_FALSE(build_map(sources, options)) << "without a flight box";
+  options.include = Box(Vec3(-2, -6, 0), Vec3(24, 6, 4));
+  const auto built = build_map(sources, options);
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_THAT(built->cut, HasSubstr("the map is cut to uav.flight_box"));
+  EXPECT_EQ(label_at(built->map, Vec3(4.1, 0.1, 0.1)), VoxelLabel::Occupied);
+}
+
+/// The ground of a scan: its voxels reach from -0.25 to 0.25 m.
+MapSources ground() { return sources_of({region("wall", Box(Vec3(-3, -3, -0.1), Vec3(3, 3, 0.1)))}); }
+
+MapBuildOptions standing_at(const Vec3& p, double radius = 0.3) {
+  MapBuildOptions options;
+  options.extents = Box(Vec3(-3, -3, -1), Vec3(3, 3, 3));
+  options.body = Body{};
+  options.body->radius = radius;
+  options.somewhere = p;
+  return options;
+}
+
+TEST(MapBuilder, FreesTheVoxelsInWhichTheVehicleStands) {
+  // Of a ball that reaches 0.23 m into the ground's voxels, and of one that is smaller than a voxel.
+  for (const auto& [z, radius] : {std::pair(0.32, 0.3), std::pair(0.3, 0.3), std::pair(0.05, 0.05)}) {
+    const auto built = build_map(ground(), standing_at(Vec3(0.1, 0.1, z), radius));
+    ASSERT_TRUE(built);
+    EXPECT_GT(built->stood_in, 0) << z;
+    EXPECT_EQ(label_at(built->map, Vec3(0.1, 0.1, 0.1)), VoxelLabel::Free) << z;
+    EXPECT_EQ(label_at(built->map, Vec3(0.1, 0.1, -0.1)), VoxelLabel::Occupied) << z;
+    EXPECT_EQ(label_at(built->map, Vec3(0.7, 0.7, 0.1)), VoxelLabel::Occupied) << z;
+  }
+}
+
+TEST(MapBuilder, FreesTheVoxelsInWhichABoxStandsAndRoomBesideIt) {
+  MapBuildOptions options = standing_at(Vec3(0, 0, 0.11));
+  options.body = Body{box_corners(Box(Vec3(-0.3, -0.3, -0.1), Vec3(0.3, 0.3, 0.1))), 0.0};
+  const VoxelMap map = build(ground(), options);
+  EXPECT_EQ(label_at(map, Vec3(0.4, 0.4, 0.1)), VoxelLabel::Free);
+  EXPECT_EQ(label_at(map, Vec3(0.6, 0.1, 0.1)), VoxelLabel::Occupied) << "0.2 m beside it";
+  EXPECT_EQ(label_at(map, Vec3(0.1, 0.1, -0.1)), VoxelLabel::Occupied) << "the layer below";
+}
+
+TEST(MapBuilder, KeepsVoxelsThatTheVehicleTouchesOrInWhichItIsBuried) {
+  EXPECT_EQ(build_map(ground(), standing_at(Vec3(0, 0, 0.55)))->stood_in, 0) << "touches exactly";
+  EXPECT_EQ(build_map(ground(), standing_at(Vec3(0, 0, 0.1)))->stood_in, 0) << "0.45 m deep";
+  EXPECT_EQ(build_map(ground(), standing_at(Vec3(0, 0, 1.5)))->stood_in, 0);
+  EXPECT_EQ(build_map(sources_of({region("fog", Box(Vec3(-3, -3, -1), Vec3(3, 3, 3)))}), standing_at(Vec3(0, 0, 1)))
+                ->stood_in,
+            0)
+      << "unknown voxels";
 }
 
 TEST(MapBuilder, EqualSourcesGiveTheSameVersion) {

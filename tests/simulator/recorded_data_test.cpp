@@ -40,7 +40,7 @@ RecordedTracksSpec eth(const std::string& name, double frames_per_second) {
 }
 
 std::vector<RecordedTrack> load(const RecordedTracksSpec& spec) {
-  return load_recorded_tracks(find_track_file(spec.file, "", kData).value(), spec).value();
+  return load_recorded_tracks(find_track_file(spec.file, "", kData).value(), spec).value().tracks;
 }
 
 void expect_walking(const std::vector<RecordedTrack>& tracks, double fastest) {

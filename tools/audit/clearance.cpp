@@ -18,6 +18,8 @@ constexpr double kResolution = 1e-4;
 /// The precision below kNearTouch, where it may be a contact, m.
 constexpr double kTouchResolution = 1e-6;
 constexpr double kNearTouch = 1e-3;
+/// Smaller overlaps are the rounding of coordinates: the body touches, m. The referee has the same rule.
+constexpr double kOverlapRounding = 1e-9;
 /// The referee's verdict comes at the first contact; this much time after it shows the depth.
 constexpr Duration kAfterCollision{100'000};
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -231,7 +233,7 @@ class Verdicts {
     for (const auto& [from, to] : {std::pair{&a.proven, &proven_}, {&a.interpolated, &interpolated_}}) {
       if (from->obstacle != kNoObstacle) to->lower(from->low, from->at, from->obstacle);
     }
-    if (a.proven.high < 0.0) {
+    if (a.proven.high < -kOverlapRounding) {
       const Closest& c = a.proven;
       check_.fail({c.at, fmt::format("overlaps {} by {:.3f} m", name_of(c.obstacle), -c.high), 0, c.obstacle});
     } else if (a.proven.obstacle != kNoObstacle && a.proven.low < passed_over(a.proven.low)) {

@@ -72,6 +72,48 @@ TEST(ScenarioView, ShowsWhoIsThereAndHowHighRegionsAre) {
   EXPECT_THAT(draw_scenario(view), Not(HasSubstr(">80<")));  ///< the axis does not reach obstacles that appear later
 }
 
+ScenarioView view_of_scenario(const std::string& yaml) {
+  const TempFolder folder;
+  FlightInputs inputs;
+  inputs.scenario_file = folder.file("a.yaml");
+  std::ofstream(inputs.scenario_file) << yaml;
+  return view_scenario(inputs, std::nullopt);
+}
+
+TEST(ScenarioView, SaysThatTheStartLiesInAnUnknownVoxel) {
+  const std::string yaml =
+      "uav: {start: [0, 0, 1], goal: [9, 0, 1], body: {radius: 0.3}, flight_box: {min: [-2, -3, 0], max: [12, 3, 3]}}\n"
+      "mapper: {background: unknown, extents: {min: [-2, -3, 0], max: [12, 3, 3]}}\n";
+  EXPECT_TRUE(view_of_scenario(yaml).shortest);
+  EXPECT_THAT(to_text(view_of_scenario(yaml + "planner: {unknown: obstacle}\n")),
+              HasSubstr("cannot be reached: the start lies in the unknown voxel at ("));
+}
+
+TEST(ScenarioView, RefusesASensorThatIsLaterThanTheWorldMayBe) {
+  const std::string uav = "uav: {start: [0, 0, 1], goal: [9, 0, 1]}\n";
+  const std::string late = "simulator: {declare: false, sensor: {mode: noisy, latency_s: 0.28}}\n";
+  EXPECT_THAT(to_text(view_of_scenario(uav + late)),
+              ::testing::AllOf(HasSubstr("cannot be reached: the newest detection is 0.32 s old on average"),
+                               HasSubstr("planner.stale_after_s, 0.3 s")));
+  EXPECT_TRUE(view_of_scenario(uav + late + "planner: {stale_after_s: 0.5}\n").shortest);
+  EXPECT_TRUE(view_of_scenario(uav + "simulator: {sensor: {mode: noisy, latency_s: 0.28}}\n").shortest)
+      << "declared motions are fresh";
+  EXPECT_TRUE(view_of_scenario(uav + "simulator: {declare: false, sensor: {mode: noisy}}\n").shortest);
+}
+
+TEST(ScenarioView, WarnsOfAccelerationsThatTheVehicleCannotGive) {
+  const std::string uav = "uav: {start: [0, 0, 1], goal: [9, 0, 1], ";
+  const std::string camera = "simulator: {vehicle: quadrotor}\n";  // thrust/weight 2
+  EXPECT_THAT(to_text(view_of_scenario(uav + "limits: {a_max: 12}}\n" + camera)),
+              HasSubstr("WARNING     uav.limits.a_max [12, 12, 12] takes a thrust of up to 27.6 m/s², and the vehicle "
+                        "has 19.6 m/s² (thrust_to_weight 2)"));
+  EXPECT_THAT(to_text(view_of_scenario(uav + "dynamics: {thrust_max: 30}}\n" + camera)),
+              HasSubstr("uav.dynamics.thrust_max is 30 m/s²"));
+  EXPECT_THAT(to_text(view_of_scenario(uav + "dynamics: {}}\n" + camera)), Not(HasSubstr("WARNING")));
+  EXPECT_THAT(to_text(view_of_scenario(uav + "limits: {a_max: 3}}\n" + camera)), Not(HasSubstr("WARNING")));
+  EXPECT_THAT(to_text(view_of_scenario(uav + "limits: {a_max: 12}}\n")), Not(HasSubstr("WARNING")));
+}
+
 /// A wall across the flight box, of two parts.
 std::string blocked_by(const std::string& wall) {
   const TempFolder folder;

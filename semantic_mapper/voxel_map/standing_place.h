@@ -1,0 +1,27 @@
+// Frees the voxels in which the vehicle stands: a place is free if the vehicle is there.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/world/vehicle.h"
+#include "core/world/voxel_map.h"
+
+namespace tern {
+
+/// Returns the occupied voxels in which the body at p stands, by index. These are the voxels that it overlaps, and
+/// those of the same layers nearer than half a voxel, which leave room for a tube. The result is empty if the body does
+/// not stand at the edge of the occupied space.
+///
+/// A scan of the ground marks voxels up to a voxel above it, so a vehicle that stands there overlaps them. The body is
+/// at the edge if it overlaps no occupied voxel once it is moved by one voxel on one, two or three axes. A body that
+/// lies deeper is inside an obstacle. Touching is not overlapping, within kOverlapTolerance.
+/// O(voxels near the body).
+/// @param labels  per voxel of the grid
+std::vector<std::int64_t> voxels_stood_in(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
+                                          const Body& body, const Vec3& p);
+
+/// A body and a voxel that overlap by less than this only touch, m: rounding of coordinates up to 1e5 m.
+inline constexpr double kOverlapTolerance = 1e-6;
+
+}  // namespace tern
