@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "simulator/referee/body_distance.h"
+#include "core/world/body_distance.h"
 #include "simulator/referee/flown_piece.h"
 #include "simulator/worlds/world.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
-#include "simulator/referee/body_distance.h"
+#include "core/world/body_distance.h"
 #include "simulator/referee/first_time.h"
 #include "tests/support/random_splines.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/geometry/box.h"
 #include "core/world/body.h"
-#include "simulator/referee/body_distance.h"
+#include "core/world/body_distance.h"
 #include "simulator/worlds/world.h"
 #include "tests/support/legal_scenario.h"
 

@@ -8,7 +8,7 @@
 #include "flight_log/log_writer.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
-#include "simulator/referee/body_distance.h"
+#include "core/world/body_distance.h"
 #include "simulator/worlds/declared_motions.h"
 #include "simulator/worlds/world.h"
 #include "tests/support/random_splines.h"

@@ -1,4 +1,4 @@
-#include "simulator/referee/body_distance.h"
+#include "core/world/body_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,56 @@
+#include "core/world/obstacle_names.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <sstream>
+#include <string_view>
+
+namespace tern {
+namespace {
+
+/// Returns the text of a YAML scalar: without its quotes, if it has any.
+std::string plain(std::string_view value) {
+  if (value.size() < 2 || value.front() != value.back() || (value.front() != '"' && value.front() != '\'')) {
+    return std::string(value);
+  }
+  std::string text;
+  const char quote = value.front();
+  value = value.substr(1, value.size() - 2);
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const bool is_escape = k + 1 < value.size() && (quote == '"' ? value[k] == '\\' : value.substr(k, 2) == "''");
+    text += value[is_escape ? ++k : k];
+  }
+  return text;
+}
+
+}  // namespace
+
+std::map<std::int64_t, std::string> obstacle_names(const std::string& yaml) {
+  std::map<std::int64_t, std::string> names;
+  std::int64_t first = 0, listed = 0;  // id of the first listed obstacle, number of them so far
+  std::string section, key;            // of the first and the second level
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string_view text(line);
+    if (section == "world:" && !text.starts_with(' ')) break;
+    if (!text.starts_with(' ')) section = line;
+    if (section != "world:") continue;
+    if (text.starts_with("  ") && text.substr(2, 1) != " ") key = line.substr(2, line.find(':') - 2);
+    if (text == "  generator: step_aside") return {};
+    if (text.starts_with("  count: ")) first = std::atoll(line.c_str() + 9);
+    if (key != "obstacles") continue;
+    if (text == "    -") ++listed;
+    constexpr std::string_view kName = "      name: ";
+    if (!text.starts_with(kName)) continue;
+    if (std::string name = plain(text.substr(kName.size())); !name.empty()) names[first + listed - 1] = std::move(name);
+  }
+  return names;
+}
+
+std::string with_name(std::int64_t id, const std::map<std::int64_t, std::string>& names) {
+  const auto found = names.find(id);
+  return found == names.end() ? fmt::format("{}", id) : fmt::format("{} '{}'", id, found->second);
+}
+
+}  // namespace tern
