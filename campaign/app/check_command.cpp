@@ -6,7 +6,7 @@
 
 #include "campaign/app/commands.h"
 #include "campaign/app/flight_options.h"
-#include "campaign/experiments/scenario_view.h"
+#include "campaign/experiments/scenario_drawing.h"
 #include "core/base/files.h"
 #include "runtime/command_line.h"
 #include "runtime/config.h"
@@ -42,7 +42,7 @@ void add_check(CommandLine& app, Command& chosen) {
       "Inspect a scenario without flying it: contents, drawing, path to the goal; exit code 1: there is no path");
   add_world_options(command, options->flight);
   command->add_option("--seed", options->seed, "Seed (default: the scenario's)");
-  command->add_option("--out", options->out, "Draw it from above")->type_name("FILE.svg");
+  command->add_option("--out", options->out, "Draw it from above and from the side")->type_name("FILE.svg");
   command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
 }
 

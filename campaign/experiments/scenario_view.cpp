@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "campaign/experiments/limits_check.h"
-#include "campaign/experiments/svg.h"
 #include "core/world/body.h"
+#include "core/world/body_distance.h"
 #include "core/world/names.h"
 #include "executor/executor.h"
 #include "planner/app/blocked_goal.h"
@@ -20,17 +20,12 @@
 #include "semantic_mapper/app/load_map.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/world_broadcast.h"
-#include "simulator/referee/body_distance.h"
 #include "simulator/referee/clearance.h"
 
 namespace tern {
 namespace {
 
 constexpr double kStep = 0.05;  ///< m, between samples of a path
-constexpr double kLeft = 62.0;  ///< pixels, margin of the frame and the texts
-// Advance of a character in font sizes, rounded up: these texts measure 0.50 in DejaVu Sans, 0.57 in bold.
-constexpr double kAdvance = 0.55, kBoldAdvance = 0.62;
-constexpr double kTitleSize = 15.0, kLegendSize = 12.0;  // pixels
 
 PlannedPath measured(std::vector<Vec3> points, const std::vector<Region>& regions) {
   PlannedPath way{std::move(points), 0.0, std::vector<double>(regions.size(), 0.0)};
@@ -92,21 +87,38 @@ std::string around_the_start(const ScenarioView& view, const Body& body) {
   return "";
 }
 
-const std::string& label_of(const Scenario& scenario, const Region& region) {
-  const auto& classes = scenario.semantics.classes;
-  return std::ranges::find_if(classes, [&](const auto& c) { return c.first == region.class_name; })->second;
-}
-
 double lambda_of(const Scenario& scenario, const Region& region) {
   const SemanticsSpec& semantics = scenario.semantics;
   for (const auto& [name, lambda] : semantics.lambdas) {
     if (name == region.class_name) return lambda;
   }
-  return label_of(scenario, region) == to_string(VoxelLabel::Repulsive) ? semantics.lambda_repulsive
-                                                                        : semantics.lambda_attractive;
+  return region_label(scenario, region) == to_string(VoxelLabel::Repulsive) ? semantics.lambda_repulsive
+                                                                            : semantics.lambda_attractive;
 }
 
-/// Lists obstacles at world time 0, and the number of later ones.
+std::string regions_text(const ScenarioView& view) {
+  std::string text;
+  for (std::size_t r = 0; r < view.scenario.semantics.regions.size(); ++r) {
+    const Region& region = view.scenario.semantics.regions[r];
+    const std::string& label = region_label(view.scenario, region);
+    text += fmt::format("  region    {} ({}, {}", region.name, region.class_name, label);
+    const bool weighs = label == to_string(VoxelLabel::Attractive) || label == to_string(VoxelLabel::Repulsive);
+    if (weighs) text += fmt::format(", λ {:g}", lambda_of(view.scenario, region));
+    text += "), " + region_heights(region);
+    if (view.shortest) text += fmt::format(": {:.1f} m of the shortest path", view.shortest->in_region_m[r]);
+    if (view.weighted) text += fmt::format(", {:.1f} m of the weighted one", view.weighted->in_region_m[r]);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+const std::string& region_label(const Scenario& scenario, const Region& region) {
+  const auto& classes = scenario.semantics.classes;
+  return std::ranges::find_if(classes, [&](const auto& c) { return c.first == region.class_name; })->second;
+}
+
 std::string world_text(const World& world) {
   std::size_t resting = 0, moving = 0, later = 0;
   for (const WorldObstacle& o : world.obstacles) {
@@ -117,95 +129,10 @@ std::string world_text(const World& world) {
   return later > 0 ? fmt::format("{}; {} more appear later", text, later) : text;
 }
 
-/// Returns "z 0 to 4 m".
-std::string heights(const Region& region) {
+std::string region_heights(const Region& region) {
   const Box box = region.bounds();
   return fmt::format("z {:g} to {:g} m", box.min().z(), box.max().z());
 }
-
-std::string regions_text(const ScenarioView& view) {
-  std::string text;
-  for (std::size_t r = 0; r < view.scenario.semantics.regions.size(); ++r) {
-    const Region& region = view.scenario.semantics.regions[r];
-    const std::string& label = label_of(view.scenario, region);
-    text += fmt::format("  region    {} ({}, {}", region.name, region.class_name, label);
-    const bool weighs = label == to_string(VoxelLabel::Attractive) || label == to_string(VoxelLabel::Repulsive);
-    if (weighs) text += fmt::format(", λ {:g}", lambda_of(view.scenario, region));
-    text += "), " + heights(region);
-    if (view.shortest) text += fmt::format(": {:.1f} m of the shortest path", view.shortest->in_region_m[r]);
-    if (view.weighted) text += fmt::format(", {:.1f} m of the weighted one", view.weighted->in_region_m[r]);
-    text += "\n";
-  }
-  return text;
-}
-
-const char* fill_of(const std::string& label) {
-  if (label == to_string(VoxelLabel::Attractive)) return "fill=\"#2e9e5b\" fill-opacity=\"0.20\" stroke=\"#2e9e5b\"";
-  if (label == to_string(VoxelLabel::Repulsive)) return "fill=\"#d9413e\" fill-opacity=\"0.18\" stroke=\"#d9413e\"";
-  return "fill=\"#7d838c\" fill-opacity=\"0.30\" stroke=\"#7d838c\"";
-}
-
-/// Makes a frame of equal scales. Where the flight box is unbounded, it is cut near the scenario's contents.
-PlotFrame frame_of(const ScenarioView& view) {
-  const UavSpec& uav = view.scenario.uav;
-  Box box(uav.start);
-  box.extend(uav.goal);
-  for (const Region& r : view.scenario.semantics.regions) box.extend(r.bounds());
-  for (const WorldObstacle& o : view.world.obstacles) {
-    if (o.present(0.0)) box.extend(o.box(0.0));
-  }
-  for (const Box& b : view.occupied) box.extend(b);
-  for (const auto* way : {&view.shortest, &view.weighted}) {
-    for (const Vec3& p : *way ? (*way)->points : std::vector<Vec3>()) box.extend(p);
-  }
-  PlotFrame frame;
-  frame.corner = {kLeft, 52};
-  const double x = box.sizes().x() + 4.0, y = box.sizes().y() + 4.0;
-  const double scale = std::min(1000.0 / x, 700.0 / y);
-  frame.width = scale * x;
-  frame.height = scale * y;
-  frame.x_range = {box.min().x() - 2.0, box.max().x() + 2.0};
-  frame.y_range = {box.min().y() - 2.0, box.max().y() + 2.0};
-  return frame;
-}
-
-void draw_box(Svg& page, const PlotFrame& frame, const Box& box, const std::string& attributes) {
-  const XY from = frame.at(box.min().x(), box.max().y()), to = frame.at(box.max().x(), box.min().y());
-  page.rect(from, to.first - from.first, to.second - from.second, attributes);
-}
-
-void draw_region(Svg& page, const PlotFrame& frame, const Region& region, const std::string& attributes) {
-  if (const auto* prism = std::get_if<PrismRegion>(&region.shape)) {
-    std::vector<XY> corners;
-    for (const auto& c : prism->corners) corners.push_back(frame.at(c.x(), c.y()));
-    page.polygon(corners, attributes);
-  } else if (const auto* ball = std::get_if<BallRegion>(&region.shape)) {
-    const double scale = frame.width / (frame.x_range.second - frame.x_range.first);
-    page.circle(frame.at(ball->centre.x(), ball->centre.y()), ball->radius * scale, attributes);
-  } else {
-    draw_box(page, frame, region.bounds(), attributes);
-  }
-  const Box box = region.bounds();
-  const XY at = frame.at(box.min().x(), box.max().y());
-  page.text({at.first + 4, at.second + 14}, region.name + ", " + heights(region), "font-size=\"12\"");
-}
-
-void draw_path(Svg& page, const PlotFrame& frame, const std::optional<PlannedPath>& way,
-               const std::string& attributes) {
-  if (!way) return;
-  std::vector<XY> points;
-  for (const Vec3& p : way->points) points.push_back(frame.at(p.x(), p.y()));
-  page.polyline(points, "fill=\"none\" " + attributes);
-}
-
-std::string legend_of(const ScenarioView& view) {
-  const char* ways = !view.shortest  ? "the goal cannot be reached"
-                     : view.weighted ? "grey: the shortest path; blue: weighted by the regions' λ"
-                                     : "grey: the shortest path around static obstacles";
-  return fmt::format("open dot: start; orange: moving obstacles at time 0; {}", ways);
-}
-
-}  // namespace
 
 ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64_t> seed) {
   ScenarioView view;
@@ -264,38 +191,6 @@ std::string to_text(const ScenarioView& view) {
   return text +
          fmt::format("  λ         the weighted path is {:.1f} m, {:+.1f} m; its effect is listed at the regions\n",
                      view.weighted->length_m, view.weighted->length_m - view.shortest->length_m);
-}
-
-std::string draw_scenario(const ScenarioView& view) {
-  const PlotFrame frame = frame_of(view);
-  const std::string title =
-      fmt::format("{}, seed {}: {}", view.scenario.name, view.scenario.seed, world_text(view.world));
-  const std::string legend = legend_of(view);
-  const double longest = std::max(kBoldAdvance * kTitleSize * static_cast<double>(title.size()),
-                                  kAdvance * kLegendSize * static_cast<double>(legend.size()));
-  Svg page(kLeft + std::max(frame.width, longest) + 24.0, frame.height + 110.0);
-  page.text({kLeft, 24}, title, fmt::format("font-size=\"{:g}\" font-weight=\"bold\"", kTitleSize));
-  page.clip_rect("plan", frame.corner, frame.width, frame.height);
-  page.open_group("clip-path=\"url(#plan)\"");
-  draw_box(page, frame, view.scenario.uav.flight_box, "fill=\"none\" stroke=\"#1f2933\" stroke-dasharray=\"6 4\"");
-  for (const Region& r : view.scenario.semantics.regions) {
-    draw_region(page, frame, r, fill_of(label_of(view.scenario, r)));
-  }
-  for (const Box& b : view.occupied) draw_box(page, frame, b, "fill=\"#4a5560\" fill-opacity=\"0.55\"");
-  for (const WorldObstacle& o : view.world.obstacles) {
-    if (!o.present(0.0)) continue;
-    draw_box(page, frame, o.box(0.0),
-             o.moves() ? "fill=\"#e07b00\" fill-opacity=\"0.65\"" : "fill=\"#7d838c\" fill-opacity=\"0.8\"");
-  }
-  draw_path(page, frame, view.shortest, "stroke=\"#7d838c\" stroke-width=\"2\" stroke-dasharray=\"5 3\"");
-  draw_path(page, frame, view.weighted, "stroke=\"#1357a6\" stroke-width=\"2.5\"");
-  const UavSpec& uav = view.scenario.uav;
-  page.circle(frame.at(uav.start.x(), uav.start.y()), 6.0, "fill=\"white\" stroke=\"#1f2933\" stroke-width=\"2\"");
-  page.circle(frame.at(uav.goal.x(), uav.goal.y()), 6.0, "fill=\"#1357a6\" stroke=\"white\"");
-  page.close_group();
-  frame.draw_axes(page, "x, m", "y, m");
-  page.text({kLeft, frame.height + 100.0}, legend, fmt::format("font-size=\"{:g}\"", kLegendSize));
-  return page.finish();
 }
 
 }  // namespace tern

@@ -41,8 +41,11 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
 /// Returns about a screenful of text.
 std::string to_text(const ScenarioView& view);
 
-/// Returns an SVG from above: flight box, regions, occupied voxels, static obstacles, moving obstacles at world time 0,
-/// both paths.
-std::string draw_scenario(const ScenarioView& view);
+/// Returns the numbers of obstacles at world time 0, and of later ones, as text.
+std::string world_text(const World& world);
+/// Returns the label of the region's class: "attractive". @pre the scenario has that class
+const std::string& region_label(const Scenario& scenario, const Region& region);
+/// Returns "z 0 to 4 m".
+std::string region_heights(const Region& region);
 
 }  // namespace tern

@@ -1,5 +1,3 @@
-#include "campaign/experiments/scenario_view.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <regex>
 #include <string>
 
+#include "campaign/experiments/scenario_drawing.h"
 #include "tests/support/temp_folder.h"
 
 namespace tern {
@@ -138,6 +137,67 @@ TEST(ScenarioView, CallsWhatBlocksTheGoalByItsName) {
   const std::string by_map =
       blocked_by("semantics:\n  classes: {wall: occupied, grass: attractive}\n  regions:\n" + regions);
   EXPECT_THAT(by_map, HasSubstr("an occupied part of the map (region 'facade') from"));
+}
+
+/// A room: floor, ceiling and a wall as occupied regions of the map; the vehicle flies above the floor, along x.
+ScenarioView room() {
+  const TempFolder folder;
+  FlightInputs inputs;
+  inputs.scenario_file = folder.file("room.yaml");
+  std::ofstream(inputs.scenario_file)
+      << "uav: {start: [0, 0, 1], goal: [9, 0, 1], flight_box: {min: [-2, -3, 0], max: [12, 3, 3]}}\n"
+      << "world:\n  obstacles:\n"
+      << "    - {name: gate, centre: [5, 2, 1], half_extents: [0.2, 0.5, 1]}\n"
+      << "    - {name: lamp, centre: [5, 1, 2.6], half_extents: [0.2, 0.2, 0.2]}\n"
+      << "    - {name: passer, centre: [3, -2, 1], half_extents: [0.2, 0.2, 1], motion: linear, velocity: [0.1, 0, "
+         "0]}\n"
+      << "mapper: {resolution_m: 0.25}\n"
+      << "semantics:\n  classes: {house: occupied}\n  regions:\n"
+      << "    - {name: floor, class: house, box: {min: [-2, -3, 0], max: [12, 3, 0.25]}}\n"
+      << "    - {name: ceiling, class: house, box: {min: [-2, -3, 2.75], max: [12, 3, 3]}}\n"
+      << "    - {name: wall, class: house, box: {min: [-2, 2.5, 0], max: [12, 3, 3]}}\n";
+  return view_scenario(inputs, std::nullopt);
+}
+
+/// Returns the widest rectangle of a fill in the part of the drawing between two texts, and its height, pixels.
+std::pair<double, double> largest_rect(const std::string& drawing, const std::string& from, const std::string& to,
+                                       const std::string& fill) {
+  const std::size_t begin = drawing.find(from);
+  const std::string part = drawing.substr(begin, drawing.find(to, begin) - begin);
+  const std::regex rect("<rect [^>]*width=\"([0-9.]+)\" height=\"([0-9.]+)\" " + fill);
+  std::pair<double, double> largest{0.0, 0.0};
+  for (std::sregex_iterator r(part.begin(), part.end(), rect); r != std::sregex_iterator(); ++r) {
+    largest = std::max(largest, {std::stod((*r)[1]), std::stod((*r)[2])});
+  }
+  return largest;
+}
+
+TEST(ScenarioView, DrawsARoomAtTheVehiclesHeightAndFromTheSide) {
+  const ScenarioView view = room();
+  ASSERT_TRUE(view.shortest) << view.blocked;
+  const auto [low, high] = drawn_heights(view);
+  EXPECT_NEAR(low, 0.9, 0.05);
+  EXPECT_NEAR(high, 1.1, 0.05);
+  const std::string drawing = draw_scenario(view);
+  const double metre = 1000.0 / 18.0;  ///< pixels, for 14 m and 2 m on either side
+  const auto wall = largest_rect(drawing, ">from above<", ">from the side", "fill=\"#4a5560\"");
+  EXPECT_NEAR(wall.first, 14.0 * metre, 2.0);
+  EXPECT_NEAR(wall.second, 0.5 * metre, 2.0) << "neither floor nor ceiling fills the room";
+  const auto side = largest_rect(drawing, ">from the side", "</svg>", "fill=\"#4a5560\"");
+  EXPECT_NEAR(side.first, 14.0 * metre, 2.0);
+  EXPECT_LT(side.second, 0.6 * metre) << "floor and ceiling; the wall is beside the path";
+  EXPECT_EQ(largest_rect(drawing, ">from the side", "</svg>", "fill=\"#7d838c\"").first, 18.0) << "the key's alone";
+}
+
+TEST(ScenarioView, DrawsNamesAndWaysAndAKeyOfThem) {
+  const std::string drawing = draw_scenario(room());
+  for (const char* text :
+       {">gate<", ">lamp<", ">passer<", ">start<", ">goal<", ">from above<", ">from the side, along the path<",
+        ">their ways during the first 10 s<", ">static obstacles above or below<", ">moving obstacles at time 0<"}) {
+    EXPECT_THAT(drawing, HasSubstr(text));
+  }
+  EXPECT_THAT(drawing, HasSubstr(">occupied in the map from 0.9 to 1.1 m, the vehicle's height<"));
+  EXPECT_THAT(drawing, HasSubstr("fill=\"none\" stroke=\"#e07b00\"")) << "the way of the passer";
 }
 
 }  // namespace
