@@ -100,7 +100,7 @@ Json cubes_of(const Json& obstacles) {
     cubes.push_back(
         {{"pose", pose(obstacle["position"], 0.0)},
          {"size", size},
-         {"color", obstacle["moves"].get<bool>() ? color(0.88, 0.48, 0.12, 0.9) : color(0.55, 0.6, 0.65, 0.9)}});
+         {"color", obstacle["moves"].get<bool>() ? color(0.88, 0.48, 0.0, 0.9) : color(0.55, 0.6, 0.65, 0.9)}});
   }
   return cubes;
 }
@@ -216,13 +216,13 @@ std::optional<Drawing> drawing_of(const LoggedMessage& message) {
 std::vector<Drawing> drawings_of(const Plan& plan, UTime t_s, const TrackSet& tracks, std::int64_t received_us) {
   if (plan.outcome == PlanOutcome::NoPlan) return {};
   Triangles hulls, planes;
-  for (const PredictedHull& hull : predicted_hulls(tracks, plan.trajectory, kHullReach, kMaxHulls).hulls) {
+  for (const PredictedHull& hull : predicted_hulls(tracks, plan.trajectory, kMaxSpan, kHullReach, kMaxHulls).hulls) {
     hulls.add(hull.points, hull_faces(hull.points));
   }
   for (const CertificatePlane& c : plan.certificate) {
     planes.add(patch_of(c.plane, place_of(c, plan.trajectory, t_s)), {{0, 1, 2}, {0, 2, 3}});
   }
-  return {{"/tern/hulls", kScene, hulls.scene("hulls", color(0.95, 0.5, 0.1, 0.15), received_us)},
+  return {{"/tern/hulls", kScene, hulls.scene("hulls", color(0.56, 0.74, 0.2, 0.15), received_us)},
           {"/tern/planes", kScene, planes.scene("planes", color(0.35, 0.55, 0.95, 0.12), received_us)}};
 }
 

@@ -7,7 +7,7 @@ function chart(parent, { height = 210, columns, series, range, axis = {}, hooks 
   let plot = null;
   redraws.push(() => {
     if (plot) plot.destroy();
-    const width = printing ? (parent.parentElement.classList.contains("pair") ? 305 : PRINT_WIDTH) : parent.clientWidth - 36;
+    const width = printing ? (parent.parentElement.classList.contains("pair") ? 305 : PRINT_WIDTH) : Math.max(parent.clientWidth - 36, LEAST_WIDTH);
     const lines = { stroke: css("soft"), grid: { stroke: css("grid"), width: 1 }, ticks: { stroke: css("grid"), width: 1, size: 4 }, font: "11px system-ui, 'DejaVu Sans', sans-serif" };
     plot = new uPlot({
       width, height, padding: [8, 16, 0, 0],

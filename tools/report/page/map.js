@@ -4,6 +4,7 @@ const nameOf = (id) => `obstacle ${id}` + (audit.names && audit.names[id] ? ` '$
 const { outcomes: OUTCOMES, reasons: REASONS, stages: STAGES } = data.names;
 const STAGE_COLOURS = ["c6", "c3", "c4", "c1", "c2", "c5"];
 const PRINT_WIDTH = 660;
+const LEAST_WIDTH = 160; // of a chart: a page that is not shown yet has no width
 let printing = false;
 const leastOf = (measures) => measures.least_m_at_least ?? measures.least_m_by_interpolation;
 const check = (name) => audit.checks.find((c) => c.name === name) || { measures: {} };
@@ -51,7 +52,7 @@ class MapView {
     if (!(this.v[1] - this.v[0] >= 2)) this.v = [least(vs) - 2, most(vs) + 2];
   }
   layout() {
-    const width = printing ? PRINT_WIDTH : this.canvas.parentElement.clientWidth - 36;
+    const width = printing ? PRINT_WIDTH : Math.max(this.canvas.parentElement.clientWidth - 36, LEAST_WIDTH);
     const left = 40, bottom = 20, right = 4, top = 4;
     const tallest = this.vertical === 1 ? 640 : 260;
     this.scale = Math.min((width - left - right) / (this.x[1] - this.x[0]), tallest / (this.v[1] - this.v[0]));
