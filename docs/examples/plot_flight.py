@@ -36,7 +36,7 @@ times, xs, ys, speeds = zip(*states)
 figure, (path, speed, replan) = plt.subplots(3, 1, figsize=(11, 7), layout="constrained", height_ratios=[1, 2, 2])
 for o in obstacles.values():
     corner = o.position.x - o.half_extents.x, o.position.y - o.half_extents.y
-    path.add_patch(plt.Rectangle(corner, 2 * o.half_extents.x, 2 * o.half_extents.y, fc="orange" if o.moves else "gray"))
+    path.add_patch(plt.Rectangle(corner, 2 * o.half_extents.x, 2 * o.half_extents.y, fc="#e07b00" if o.moves else "gray"))
 path.scatter(xs, ys, c=speeds, s=4, zorder=2)
 path.set(xlabel="x, m", ylabel="y, m", aspect="equal", title="the path, coloured by speed; obstacles as they were at last")
 speed.plot([t - times[0] for t in times], speeds)

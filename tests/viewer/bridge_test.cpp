@@ -63,6 +63,7 @@ TEST(Access, TakesItsOwnPageOnly) {
 
 TEST(Commands, AreUnderstood) {
   EXPECT_TRUE(std::get<LayersCommand>(*parse_command(R"({"layers":["hulls","planes"]})")).planes);
+  EXPECT_TRUE(std::get<LayersCommand>(*parse_command(R"({"layers":["tracks"]})")).tracks);
   EXPECT_EQ(std::get<PickCommand>(*parse_command(R"({"pick":{"kind":"obstacle","id":7}})")).id, 7);
   EXPECT_TRUE(std::get<PlayCommand>(*parse_command(R"({"player":{"play":true}})")).play);
   EXPECT_EQ(std::get<SeekCommand>(*parse_command(R"({"player":{"seek_us":1700000000000000}})")).at_us,

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <vector>
 
+#include "core/geometry/box.h"
+#include "core/world/message_limits.h"
 #include "tests/viewer/known_scene.h"
 #include "viewer/bridge/predicted_hulls.h"
 #include "viewer/bridge/scene.h"
@@ -94,13 +96,18 @@ RC_GTEST_PROP(VoxelSurface, TellsTheDistanceToWhatIsOccupied, ()) {
   const VoxelMap map = random_map(size, labels);
   const auto coordinate = rc::gen::map(rc::gen::inRange(-300, 500), [](int cm) { return 0.01 * cm; });
   const Vec3 p(*coordinate, *coordinate, *coordinate);
+  const auto half = rc::gen::map(rc::gen::inRange(0, 40), [](int cm) { return 0.01 * cm; });
+  const Points corners = box_corners(box_around(Vec3::Zero(), Vec3(*half, *half, *half)));
+  const BodyDistance body({*rc::gen::element(Points(corners), Points(corners.leftCols(5))), *half});
   double nearest = std::numeric_limits<double>::infinity();
   for (std::int64_t k = 0; k < map.grid.voxels(); ++k) {
     if (map.labels[static_cast<std::size_t>(k)] != VoxelLabel::Occupied) continue;
-    nearest = std::min(nearest, map.grid.box(map.grid.cell(k)).exteriorDistance(p));
+    const Box voxel = map.grid.box(map.grid.cell(k));
+    nearest = std::min(nearest, body(p - voxel.center(), 0.5 * voxel.sizes()));
   }
-  const double told = distance_to_occupied(voxel_surface(map), p);
-  RC_ASSERT(told == nearest || std::abs(told - nearest) < 1e-9);
+  const double told = distance_to_occupied(voxel_surface(map), body, p);
+  if (nearest > 1e-9) RC_ASSERT(told == nearest || std::abs(told - nearest) < 1e-9);
+  if (nearest < -1e-9) RC_ASSERT(told <= 0.0);
 }
 
 TEST(PredictedHulls, HoldTheObstacleAtEveryInstant) {
@@ -112,7 +119,7 @@ TEST(PredictedHulls, HoldTheObstacleAtEveryInstant) {
     if (track.id % 2 == 0) track.motion.pieces.front().duration = Duration{400'000};  // ends within the plan
   }
   const TimedSpline plan = scene.request(start, 1).committed;
-  const PredictedHulls made = predicted_hulls(tracks, plan, 20.0, 1'000);
+  const PredictedHulls made = predicted_hulls(tracks, plan, kMaxSpan, 20.0, 1'000);
   EXPECT_EQ(made.left_out, 0);
   EXPECT_EQ(made.hulls.size(), static_cast<std::size_t>(support::kKnownMovers * plan.spline().intervals()));
   for (const PredictedHull& hull : made.hulls) {
@@ -131,11 +138,20 @@ TEST(PredictedHulls, HoldTheObstacleAtEveryInstant) {
   }
 }
 
+TEST(PredictedHulls, AreOfTheIntervalsThatBeginInTime) {
+  const UTime start{1'000'000'000};
+  const support::KnownScene scene(start);
+  const TimedSpline plan = scene.request(start, 1).committed;  ///< intervals of 0.2 s
+  const PredictedHulls made = predicted_hulls(scene.predictions(start), plan, Duration{1'000'000}, 20.0, 1'000);
+  EXPECT_EQ(made.hulls.size(), 5U * support::kKnownMovers);
+  for (const PredictedHull& hull : made.hulls) EXPECT_LT(hull.interval, 5);
+}
+
 TEST(PredictedHulls, AreBoundedNearestFirst) {
   const UTime start{1'000'000'000};
   const support::KnownScene scene(start);
   const TimedSpline plan = scene.request(start, 1).committed;
-  const PredictedHulls made = predicted_hulls(scene.predictions(start), plan, 20.0, 5);
+  const PredictedHulls made = predicted_hulls(scene.predictions(start), plan, kMaxSpan, 20.0, 5);
   ASSERT_EQ(made.hulls.size(), 5U);
   EXPECT_EQ(made.left_out, support::kKnownMovers * plan.spline().intervals() - 5);
   EXPECT_LE(made.hulls.front().points.row(0).minCoeff(), 6.0);  ///< no hull of those 18 m away

@@ -151,13 +151,14 @@ TEST(Scene, RemembersClearancesToObstaclesAndToTheMapApart) {
   VoxelMap map = known.map();
   for (VoxelLabel& label : map.labels) label = label == VoxelLabel::Repulsive ? VoxelLabel::Occupied : label;
   scene.receive(map);
+  scene.receive(known.request(kStart, 1));  ///< a ball of 0.1 m
   scene.receive(known.truth(kStart));
   scene.receive(known.state(kStart));
   const json chart =
       json::parse(memory.history.chart_json(kStart, kStart, {"clearance.obstacles_m", "clearance.map_m"}));
   EXPECT_NEAR(chart["series"]["clearance.obstacles_m"][1][0].get<double>(), *scene.clearance(), 1e-4);
   // Occupied: x 7 … 9, y −2 … −1.5, z 0 … 2; the vehicle is at (0, 0, 1).
-  EXPECT_NEAR(chart["series"]["clearance.map_m"][1][0].get<double>(), std::hypot(7.0, 1.5), 1e-4);
+  EXPECT_NEAR(chart["series"]["clearance.map_m"][1][0].get<double>(), std::hypot(7.0, 1.5) - 0.1, 1e-4);
 }
 
 std::vector<std::string> events_of(const FlightEvents& events, const std::string& kind) {

@@ -36,6 +36,7 @@ void write_known_log(const std::string& path, Duration lead, double course) {
     recorder.publish(channels::kUavState, scene.state(now), now);
     if (tick % 5 == 0) {
       recorder.publish(channels::kObstacleTruth, scene.truth(now), now);
+      recorder.publish(channels::kObstacleObservations, scene.observations(now), now);
       recorder.publish(channels::kPredictions, scene.predictions(now), now);
     }
     if (tick % 10 == 0) {
@@ -47,6 +48,7 @@ void write_known_log(const std::string& path, Duration lead, double course) {
     if (tick % 50 == 0) recorder.publish(channels::kHeartbeat, scene.heartbeat(), now);
     if (tick % 100 == 0) {
       recorder.publish(channels::kGoal, scene.goal(), now);
+      recorder.publish(channels::kConfiguration, scene.configuration(), now);
       for (const MapChunk& chunk : to_chunks(scene.map())) recorder.publish(channels::kSemanticMap, chunk, now);
     }
   }

@@ -52,6 +52,15 @@ ObstacleTruth KnownScene::truth(UTime now) const {
   return truth;
 }
 
+ObservationSet KnownScene::observations(UTime now) const {
+  ObservationSet set;
+  set.at = now;
+  for (const TrueObstacle& o : truth(now).obstacles) {
+    if (o.moves) set.detections.push_back({o.position, o.half_extents, Vec3::Constant(0.01), o.id});
+  }
+  return set;
+}
+
 TrackSet KnownScene::predictions(UTime now) const {
   TrackSet set;
   set.made_at = now;
@@ -118,6 +127,15 @@ Heartbeat KnownScene::heartbeat() const {
   heartbeat.process = "tern-scene";
   heartbeat.state = ProcessState::Ready;
   return heartbeat;
+}
+
+ConfigurationReport KnownScene::configuration() const {
+  ConfigurationReport report;
+  report.process = "tern-scene";
+  report.yaml = "world:\n  obstacles:\n";
+  for (int k = 0; k < 10; ++k) report.yaml += "    -\n      name: \"\"\n";
+  report.yaml += "    -\n      name: gate\n";
+  return report;
 }
 
 VoxelMap KnownScene::map() const {

@@ -26,6 +26,8 @@ class KnownScene {
 
   [[nodiscard]] UavState state(UTime now) const;
   [[nodiscard]] ObstacleTruth truth(UTime now) const;
+  /// Detects every mover, by its id.
+  [[nodiscard]] ObservationSet observations(UTime now) const;
   /// Predicts moving obstacles by one piece of 3.5 s at their present velocity, α 0.2 m.
   [[nodiscard]] TrackSet predictions(UTime now) const;
   /// Requests a plan from the vehicle's position to 4 m ahead.
@@ -37,6 +39,8 @@ class KnownScene {
   [[nodiscard]] SearchView search(std::int64_t request_id) const;
   [[nodiscard]] Goal goal() const;
   [[nodiscard]] Heartbeat heartbeat() const;
+  /// Names pillar 10 "gate".
+  [[nodiscard]] ConfigurationReport configuration() const;
   [[nodiscard]] VoxelMap map() const;
 
  private:

@@ -186,6 +186,65 @@ test('walls: a height cuts off what is above, and opens what it cuts', async () 
   assert.equal(seenAt(), 2);
 });
 
+test('hulls: an outline has the edges of the hull, and none within a face', async () => {
+  const THREE = await import(new URL('../../viewer/web/node_modules/three/build/three.module.js', import.meta.url));
+  const { outline } = await source('proofs');
+  const edges = (points) => {
+    const out = [];
+    outline(points.map((p) => new THREE.Vector3(...p)), out);
+    return out.length / 6;
+  };
+  const box = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [k & 1, (k & 2) / 2, (k & 4) / 4]);
+  assert.equal(edges(box), 12);
+  assert.equal(edges([...box, ...box.map(([x, y, z]) => [x + 1, y, z])]), 12, 'swept along an axis it is a box');
+  assert.equal(edges([...box, ...box.map(([x, y, z]) => [x + 1, y + 1, z])]), 18, 'swept across it is a prism over a hexagon');
+});
+
+test('tracks: id, age and the largest α', async () => {
+  const { trackInWords } = await source('tracks');
+  const tracks = { id: [7, 8], age_s: [1.25, null], alpha: [0.1, 0.344, 0.2, 0, 0, 0.5] };
+  assert.equal(trackInWords(tracks, 0), '7, 1.3 s, α 0.34 m');
+  assert.equal(trackInWords(tracks, 1), '8, α 0.50 m');
+});
+
+test('goal: its ring is a circle from above and from any side, and seen from afar', async () => {
+  const THREE = await import(new URL('../../viewer/web/node_modules/three/build/three.module.js', import.meta.url));
+  const { Trajectories } = await source('trajectories');
+  const trajectories = new Trajectories(new THREE.Scene());
+  trajectories.takeGoal({ p: [10, 0, 2] });
+  const above = new THREE.OrthographicCamera(-40, 40, 40, -40, 0.1, 400);
+  const behind = new THREE.PerspectiveCamera(46, 1, 0.1, 400);
+  above.position.set(10, 0, 100);
+  behind.position.set(-60, -30, 20);
+  for (const camera of [above, behind]) {
+    camera.up.set(0, camera === above ? 1 : 0, camera === above ? 0 : 1);
+    camera.lookAt(10, 0, 2);
+    camera.updateMatrixWorld();
+    trajectories.draw(1.7, camera, 800);
+    const [ring] = trajectories.goal.children;
+    ring.updateWorldMatrix(true, false);
+    const box = new THREE.Box2();
+    const { position } = ring.geometry.attributes;
+    for (let k = 0; k < position.count; ++k) {
+      const at = new THREE.Vector3().fromBufferAttribute(position, k).applyMatrix4(ring.matrixWorld).project(camera);
+      box.expandByPoint(new THREE.Vector2(400 * at.x, 400 * at.y));
+    }
+    const { x: wide, y: high } = box.getSize(new THREE.Vector2());
+    assert.ok(Math.abs(wide - high) < 0.05 * wide && wide > 25, `${wide} × ${high} pixels`);
+  }
+});
+
+test('movers: one colour in page, report, check and plot, and another one for hulls', async () => {
+  const { readFileSync } = await import('node:fs');
+  const text = (path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
+  const [dark, light] = [...text('viewer/web/src/palette.js').matchAll(/ {2}mover: '(#\w+)'/g)].map(([, color]) => color);
+  const report = [...text('tools/report/page/report.css').matchAll(/--mover: (#\w+)/g)].map(([, color]) => color);
+  assert.deepEqual(report, [light, dark]);
+  assert.ok(text('campaign/experiments/scenario_drawing.cpp').includes(`kMover[] = "fill=\\"${light}\\"`));
+  assert.ok(text('docs/examples/plot_flight.py').includes(`"${light}" if o.moves`));
+  assert.ok(![...text('viewer/web/src/palette.js').matchAll(/hull\w*: '(#\w+)'/g)].some(([, color]) => color === dark || color === light));
+});
+
 test('labels: fields as people read them', () => {
   assert.equal(label('UAV_STATE.speed_mps'), 'speed m/s');
   assert.equal(label('UAV_STATE.velocity_mps.x'), 'velocity.x m/s');
@@ -204,15 +263,14 @@ test('words: what was clicked on', () => {
     plan: { planes: [{ track: 7 }, { track: 7 }] },
   };
   assert.equal(
-    obstacleInWords(7, known),
+    obstacleInWords(7, known, 2.4),
     'Moving at 2.0 m/s, 1.0 × 1.0 × 1.0 m; the vehicle is 2.40 m away; the planner knows it from PREDICTIONS; 2 planes of the newest plan separate it from the vehicle.');
-  assert.match(obstacleInWords(8, known), /^Stationary, .* 3\.90 m away; the planner does not know it/);
+  assert.match(obstacleInWords(8, known, 3.9), /^Stationary, .* 3\.90 m away; the planner does not know it/);
+  assert.doesNotMatch(obstacleInWords(8, known), /away/);
   assert.equal(obstacleInWords(9, known), 'It has gone.');
-  known.state.p = [3, 0, 1.45];
-  assert.match(obstacleInWords(7, known), /overlaps it by 0\.10 m/);
+  assert.match(obstacleInWords(7, known, -0.1), /overlaps it by 0\.10 m/);
   const at = { toArray: () => [0, 3, 1], getComponent: (k) => [0, 3, 1][k] };
-  known.state.p = [0, 0, 1];
   assert.equal(
     mapInWords({ point: at, layer: 'walls' }, known),
-    'Occupied: a wall of the map; here at 0.0, 3.0, 1.0; the vehicle is 2.90 m away; its nearest wall is 0.40 m away.');
+    'Occupied: a wall of the map; here at 0.0, 3.0, 1.0; 3.00 m from the vehicle\'s centre; the vehicle\'s nearest wall is 0.40 m from its body.');
 });

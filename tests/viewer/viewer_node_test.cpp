@@ -37,7 +37,8 @@ class LogPlayerTest : public testing::Test {
   /// Returns everything that is shown, except the ages of processes.
   static std::string shown(const Scene& scene) {
     return state_json(scene) + truth_json(scene) + tracks_json(scene) + request_json(scene) + plan_json(scene, true) +
-           timing_json(scene) + map_json(scene) + goal_json(scene) + hulls_json(scene, 5.0, 100);
+           timing_json(scene) + map_json(scene) + goal_json(scene) + hulls_json(scene, Duration{1'000'000}, 5.0, 100) +
+           tracked_json(scene, {});
   }
 
   Scene scene_;
@@ -149,6 +150,23 @@ TEST_F(LogPlayerTest, KnowsTheWholeFlightBeforeItPlays) {
   EXPECT_EQ(std::count_if(events.begin(), events.end(), is_goal), 1);
 }
 
+TEST_F(LogPlayerTest, ReadsPaceAndCauseFromTheSummaryBesideTheLog) {
+  const TempFolder folder;
+  std::filesystem::copy_file(log(), folder.file("flight.lcm"));
+  std::ofstream(folder.file("summary.json")) << R"({"pace": 0.5, "why": "stood since 4.0 s"})";
+  auto player = LogPlayer::open(folder.file("flight.lcm"), "");
+  ASSERT_TRUE(player);
+  EXPECT_EQ(player->note().why, "stood since 4.0 s");
+  const json chart = json::parse(
+      player->memory().history.chart_json(player->begin(), player->end(), {"PLAN_TIMING.allowed_ms"}));
+  EXPECT_EQ(chart["series"]["PLAN_TIMING.allowed_ms"][1].back(), 140.0) << "by the clock of total_ms";
+  for (const char* text : {"", "{", "[]", R"({"pace": 0, "why": 7})", R"({"pace": "1", "why": null})", R"({"pace": 2})"}) {
+    std::ofstream(folder.file("summary.json")) << text;
+    EXPECT_EQ(read_flight_note(folder.file("flight.lcm")).pace, 1.0) << text;
+    EXPECT_EQ(read_flight_note(folder.file("flight.lcm")).why, "") << text;
+  }
+}
+
 TEST_F(LogPlayerTest, PlaysADamagedLogAndSaysSo) {
   const std::string damaged = folder_->file("damaged.lcm");
   std::filesystem::copy_file(log(), damaged);
@@ -178,18 +196,6 @@ TEST_F(LogPlayerTest, RefusesWhatIsNoLog) {
   const auto player = LogPlayer::open(folder_->file("text.lcm"), "");
   ASSERT_FALSE(player);
   EXPECT_NE(player.error().message.find("text.lcm"), std::string::npos);
-}
-
-TEST(Scene, TellsClearanceFromTheBodyToTheNearestBox) {
-  Scene scene;
-  EXPECT_EQ(scene.clearance(), std::nullopt);
-  const support::KnownScene known(kKnownLogStart);
-  scene.receive(known.state(kKnownLogStart));
-  scene.receive(known.truth(kKnownLogStart));
-  const double nearest = std::hypot(2.0 - 0.4, 3.0 - std::sin(1.0) - 0.4);  // mover 1 at (2, −3 + sin 1)
-  EXPECT_NEAR(*scene.clearance(), nearest, 1e-9);
-  scene.receive(known.request(kKnownLogStart, 1));
-  EXPECT_NEAR(*scene.clearance(), nearest - 0.1, 1e-9);
 }
 
 /// A goal, and states of vehicles.

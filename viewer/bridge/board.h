@@ -21,6 +21,7 @@ enum class Topic : std::uint8_t {
   Plan,     ///< the last answer
   Timing,   ///< its cost
   Hulls,    ///< on demand
+  Tracked,  ///< on demand: detections, and tracks with α and age
   Search,   ///< on demand
   Map,      ///< faces of the labelled voxels
   Health,   ///< every process
@@ -32,7 +33,7 @@ enum class Topic : std::uint8_t {
   Events,  ///< marks of the timeline
   Ghost,   ///< the path of another log
 };
-inline constexpr int kTopics = 19;
+inline constexpr int kTopics = 20;
 const char* to_string(Topic topic);
 
 /// Holds the newest text per topic. Thread-safe.

@@ -65,6 +65,8 @@ LayersCommand layers(const json& value) {
     const std::string name = text(entry);
     if (name == "hulls") {
       command.hulls = true;
+    } else if (name == "tracks") {
+      command.tracks = true;
     } else if (name == "planes") {
       command.planes = true;
     } else if (name == "search") {

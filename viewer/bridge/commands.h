@@ -12,9 +12,9 @@
 
 namespace tern {
 
-/// {"layers": ["hulls", "planes", "search"]}: the optional layers that the page shows.
+/// {"layers": ["hulls", "planes", "search", "tracks"]}: the optional layers that the page shows.
 struct LayersCommand {
-  bool hulls = false, planes = false, search = false;
+  bool hulls = false, planes = false, search = false, tracks = false;
 };
 
 /// {"series": ["UAV_STATE.speed_mps"]}: the fields that the page charts.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/world/names.h"
+#include "core/world/obstacle_names.h"
 #include "messages/channels.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/scene_json.h"
@@ -104,7 +105,7 @@ void write_plan(JsonWriter& json, const Scene& scene) {
   json.key("configuration").text(fmt::format("{:016x}", p.inputs.configuration_hash));
   json.key("planes").integer(static_cast<std::int64_t>(p.certificate.size()));
   json.key("budget_cuts").integer(static_cast<std::int64_t>(p.cuts.size())).end_object();
-  if (scene.timing()) write_timing(json, *scene.timing(), scene.allowed_ms());
+  if (scene.timing()) write_timing(json, *scene.timing(), scene.allowed_system_ms());
 }
 
 void write_request(JsonWriter& json, const Scene& scene) {
@@ -162,10 +163,10 @@ void write_result(JsonWriter& json, const Scene& scene) {
   begin_message(json, channels::kFlightResult, *scene.result()).key("result").raw(result_json(scene)).end_object();
 }
 
-std::string title_of(const PickCommand& pick) {
+std::string title_of(const PickCommand& pick, const Scene& scene) {
   switch (pick.kind) {
     case PickKind::Vehicle: return "Vehicle";
-    case PickKind::Obstacle: return fmt::format("Obstacle {}", pick.id);
+    case PickKind::Obstacle: return "Obstacle " + with_name(pick.id, scene.obstacle_names());
     case PickKind::Plan: return "Plan";
     case PickKind::Request: return "Committed trajectory";
     case PickKind::Goal: return "Goal";
@@ -180,7 +181,10 @@ std::string title_of(const PickCommand& pick) {
 
 std::string detail_json(const Scene& scene, const PickCommand& pick) {
   JsonWriter json;
-  json.begin_object().key("title").text(title_of(pick)).key("messages").begin_list();
+  json.begin_object().key("title").text(title_of(pick, scene));
+  const auto clearance = pick.kind == PickKind::Obstacle ? scene.clearance_of(pick.id) : std::nullopt;
+  if (clearance) json.key("clearance_m").number(*clearance);
+  json.key("messages").begin_list();
   switch (pick.kind) {
     case PickKind::Vehicle: write_vehicle(json, scene); break;
     case PickKind::Obstacle: write_obstacle(json, scene, pick.id); break;

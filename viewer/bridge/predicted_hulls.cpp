@@ -29,10 +29,11 @@ struct Candidate {
 
 }  // namespace
 
-PredictedHulls predicted_hulls(const TrackSet& tracks, const TimedSpline& plan, double reach, int most) {
+PredictedHulls predicted_hulls(const TrackSet& tracks, const TimedSpline& plan, Duration ahead, double reach,
+                               int most) {
   const ClampedSpline spline = plan.spline();
   std::vector<Candidate> candidates;
-  for (int j = 0; j < spline.intervals(); ++j) {
+  for (int j = 0; j < spline.intervals() && plan.interval * j < ahead; ++j) {
     const Box curve = spline.position_bounds(j);
     const UTime from = plan.start + plan.interval * j;
     for (const Track& track : tracks.tracks) {

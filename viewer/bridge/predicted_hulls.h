@@ -22,11 +22,12 @@ struct PredictedHulls {
   int left_out = 0;                  ///< number of hulls beyond `most`
 };
 
-/// Makes a hull for each interval of the plan and each moving track within `reach` of it. The hull is conv of the
-/// track's box grown by α and swept along the prediction (core/world/track_sweep.h): the paper's C_ij without the
-/// vehicle's body.
+/// Makes a hull for each interval of the plan that begins before `ahead`, and each moving track within `reach` of it.
+/// The hull is conv of the track's box grown by α and swept along the prediction (core/world/track_sweep.h): the
+/// paper's C_ij without the vehicle's body.
+/// @param ahead  > 0, from the plan's start
 /// @param reach  m, ≥ 0: greatest distance between the track's box in an interval and the plan's curve
 /// @param most   greatest number of hulls; each costs about 40 µs
-PredictedHulls predicted_hulls(const TrackSet& tracks, const TimedSpline& plan, double reach, int most);
+PredictedHulls predicted_hulls(const TrackSet& tracks, const TimedSpline& plan, Duration ahead, double reach, int most);
 
 }  // namespace tern

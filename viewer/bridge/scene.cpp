@@ -6,13 +6,21 @@
 #include <utility>
 
 #include "core/world/flyable.h"
+#include "core/world/obstacle_names.h"
 #include "messages/channels.h"
 #include "viewer/bridge/scene_json.h"
 
 namespace tern {
 namespace {
 
+/// Greatest age of VEHICLE_TRUTH, relative to the state, for which it stands for the vehicle.
+constexpr Duration kTruthAge{100'000};
+
 double ball_radius(const Body& body) { return body.vertices.colwise().norm().maxCoeff() + body.radius; }
+
+bool same_shape(const Body& a, const Body& b) {
+  return a.radius == b.radius && a.vertices.cols() == b.vertices.cols() && a.vertices == b.vertices;
+}
 
 }  // namespace
 
@@ -53,12 +61,23 @@ void Scene::receive(const ObstacleTruth& complete_set) {
   mark(Topic::Truth);
 }
 
+void Scene::receive_truth(const UavState& message) { true_state_ = message; }
+
+void Scene::receive(const ObservationSet& message) {
+  if (!detections_.contains(message.sensor_id) && detections_.size() >= kMaxSensors) return;
+  detections_[message.sensor_id] = message;
+  mark(Topic::Tracked);
+}
+
 void Scene::receive(TrackSet complete_set) {
+  if (memory_ != nullptr) memory_->ages.receive(complete_set);
+  mark(Topic::Tracked);
   tracks_ = std::move(complete_set);
   mark(Topic::Tracks);
 }
 
 void Scene::receive(const HorizonRequest& message) {
+  if (!body_ || !same_shape(request_->body, message.body)) body_.emplace(message.body);
   request_ = message;
   if (memory_ != nullptr) memory_->world_time.receive(message);
   request_times_[message.id] = {message.header.utime, message.deadline};
@@ -115,6 +134,7 @@ void Scene::receive(const Heartbeat& message, UTime now) {
 }
 
 void Scene::receive(const ConfigurationReport& message) {
+  if (auto names = tern::obstacle_names(message.yaml); !names.empty()) obstacle_names_ = std::move(names);
   const auto found = processes_.find(message.process);
   if (found != processes_.end()) found->second.configuration = message;
 }
@@ -129,27 +149,45 @@ void Scene::receive(const VoxelMap& map) {
 void Scene::clear() {
   const bool map_changed = changed_.test(idx(Topic::Map));
   auto map = std::move(map_);
-  *this = Scene(memory_);
+  *this = Scene(memory_, pace_);
   map_ = std::move(map);
   changed_.set();
   changed_.set(idx(Topic::Map), map_changed);
 }
 
+Vec3 Scene::position() const {
+  const bool is_known =
+      true_state_ && state_->at - true_state_->at <= kTruthAge && true_state_->at - state_->at <= kTruthAge;
+  if (!is_known) return state_->motion.p;
+  return true_state_->motion.p + (state_->at - true_state_->at).seconds() * true_state_->motion.v;
+}
+
 std::optional<double> Scene::clearance() const {
-  if (!state_ || !truth_ || truth_->obstacles.empty()) return std::nullopt;
+  if (!state_ || !truth_ || !body_ || truth_->obstacles.empty()) return std::nullopt;
   double nearest = std::numeric_limits<double>::infinity();
   const double since = (state_->at - truth_->at).seconds();
+  const Vec3 p = position();
   for (const TrueObstacle& o : truth_->obstacles) {
-    const Box now = box_around(o.position + since * o.velocity, o.half_extents);
-    nearest = std::min(nearest, now.exteriorDistance(state_->motion.p));
+    const Vec3 p_rel = p - (o.position + since * o.velocity);
+    // A bound that is cheap for bodies of any shape: the ball around the body.
+    const double outside = box_around(Vec3::Zero(), o.half_extents).exteriorDistance(p_rel);
+    if (outside > 0.0 && outside - body_radius() >= nearest) continue;
+    nearest = std::min(nearest, (*body_)(p_rel, o.half_extents));
   }
-  return nearest - body_radius();
+  return nearest;
+}
+
+std::optional<double> Scene::clearance_of(std::int64_t id) const {
+  if (!state_ || !truth_ || !body_) return std::nullopt;
+  const auto o = std::ranges::find(truth_->obstacles, id, &TrueObstacle::id);
+  if (o == truth_->obstacles.end()) return std::nullopt;
+  return (*body_)(position() - (o->position + (state_->at - truth_->at).seconds() * o->velocity), o->half_extents);
 }
 
 std::optional<double> Scene::map_clearance() const {
-  if (!state_ || !map_) return std::nullopt;
-  const double nearest = distance_to_occupied(map_->surface, state_->motion.p);
-  return std::isfinite(nearest) ? std::optional(nearest - body_radius()) : std::nullopt;
+  if (!state_ || !map_ || !body_) return std::nullopt;
+  const double nearest = distance_to_occupied(map_->surface, *body_, position());
+  return std::isfinite(nearest) ? std::optional(nearest) : std::nullopt;
 }
 
 double Scene::body_radius() const { return request_ ? ball_radius(request_->body) : 0.0; }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/world/body_distance.h"
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
 #include "core/world/health.h"
@@ -17,6 +18,7 @@
 #include "viewer/bridge/board.h"
 #include "viewer/bridge/flight_events.h"
 #include "viewer/bridge/flight_history.h"
+#include "viewer/bridge/track_ages.h"
 #include "viewer/bridge/voxel_faces.h"
 #include "viewer/bridge/world_time.h"
 
@@ -31,6 +33,8 @@ struct ObservedProcess {
 
 /// Greatest number of processes, since a hostile sender may invent names.
 inline constexpr std::size_t kMaxProcesses = 64;
+/// Greatest number of sensors whose detections are shown.
+inline constexpr std::size_t kMaxSensors = 16;
 
 /// The map as drawn, with its label counts.
 struct DrawnMap {
@@ -52,15 +56,20 @@ class Scene {
     FlightHistory history;
     FlightEvents events;
     WorldTime world_time;
+    TrackAges ages;
     /// Returns the flight's time 0: the start of world time, or the time of the first state until that is known.
     [[nodiscard]] UTime zero() const { return world_time.zero().value_or(history.begin()); }
   };
   /// @param memory  receives every message too; may be null
-  explicit Scene(Memory* memory = nullptr) : memory_(memory) {}
+  /// @param pace  seconds of flight per second of the system's clock, (0, 1]
+  explicit Scene(Memory* memory = nullptr, double pace = 1.0) : memory_(memory), pace_(pace) {}
 
   /// A new sender epoch means another vehicle and another flight: goals that were sent before it began are dropped.
   void receive(const UavState& message);
+  /// Takes VEHICLE_TRUTH: clearances are those of the vehicle as it really is, where that is known.
+  void receive_truth(const UavState& message);
   void receive(const ObstacleTruth& complete_set);
+  void receive(const ObservationSet& message);
   void receive(TrackSet complete_set);
   void receive(const HorizonRequest& message);
   void receive(const Plan& message);
@@ -78,6 +87,10 @@ class Scene {
   /// Returns the sender epoch of the vehicle's states; 0 before the first one.
   [[nodiscard]] std::int64_t vehicle_us() const { return state_ ? state_->header.name.sender_epoch_us : 0; }
   [[nodiscard]] const std::optional<ObstacleTruth>& truth() const { return truth_; }
+  /// Returns the newest detections of each sensor, by its id.
+  [[nodiscard]] const std::map<std::int32_t, ObservationSet>& detections() const { return detections_; }
+  /// Returns the names of the obstacles that the scenario lists, by id.
+  [[nodiscard]] const std::map<std::int64_t, std::string>& obstacle_names() const { return obstacle_names_; }
   [[nodiscard]] const std::optional<TrackSet>& tracks() const { return tracks_; }
   [[nodiscard]] const std::optional<HorizonRequest>& request() const { return request_; }
   [[nodiscard]] const std::optional<Plan>& plan() const { return plan_; }
@@ -88,16 +101,20 @@ class Scene {
   [[nodiscard]] const std::optional<DrawnMap>& map() const { return map_; }
   [[nodiscard]] const std::map<std::string, ObservedProcess>& processes() const { return processes_; }
 
-  /// Returns the distance from the body to the nearest true obstacle, m; nullopt until both are known. A body given by
-  /// vertices counts as the ball around it.
+  /// Returns the referee's distance (core/world/body_distance.h) from the body to the nearest true obstacle, m; nullopt
+  /// until both and the body's shape are known.
   [[nodiscard]] std::optional<double> clearance() const;
-  /// Returns the distance from the ball around the body to the nearest occupied voxel, m.
-  /// @return nullopt until both are known, or if no voxel is occupied
+  /// Returns the same for one true obstacle; nullopt if there is none of that id.
+  [[nodiscard]] std::optional<double> clearance_of(std::int64_t id) const;
+  /// Returns the distance from the body to the nearest occupied voxel as drawn, m.
+  /// @return nullopt until both and the body's shape are known, or if no voxel is occupied
   [[nodiscard]] std::optional<double> map_clearance() const;
   /// Returns the radius of the ball around the body, m; 0 before the first request.
   [[nodiscard]] double body_radius() const;
   /// Returns true if the body centred at p is inside the flight box, or before the first request.
   [[nodiscard]] bool has_room_at(const Vec3& p) const;
+  /// Returns allowed_ms() by the system's clock, which measures the times in `timing`.
+  [[nodiscard]] double allowed_system_ms() const { return allowed_ms() / pace_; }
   /// Returns the time from the request to its deadline for the answer that `timing` describes, ms on the flight's
   /// clock; 0 if unknown.
   [[nodiscard]] double allowed_ms() const;
@@ -112,11 +129,17 @@ class Scene {
 
  private:
   void remember_state();
+  /// Returns the vehicle's position for clearances, W: as it really is, or as estimated.
+  [[nodiscard]] Vec3 position() const;
   void remember(const std::string& table, UTime at, const NumberFields& fields);
 
   Memory* memory_;
-  std::optional<UavState> state_;
+  double pace_;
+  std::optional<UavState> state_, true_state_;
+  std::optional<BodyDistance> body_;  ///< of the newest request's body
   std::optional<ObstacleTruth> truth_;
+  std::map<std::int32_t, ObservationSet> detections_;
+  std::map<std::int64_t, std::string> obstacle_names_;
   std::optional<TrackSet> tracks_;
   std::optional<HorizonRequest> request_;
   std::optional<Plan> plan_;

@@ -83,6 +83,13 @@ std::string truth_json(const Scene& scene) {
   column("p", [&](const TrueObstacle& o) { json.point(o.position); });
   column("v", [&](const TrueObstacle& o) { json.point(o.velocity); });
   column("h", [&](const TrueObstacle& o) { json.point(o.half_extents); });
+  if (scene.obstacle_names().empty()) return json.end_object().take();
+  json.key("names").begin_object();
+  for (const TrueObstacle& o : truth.obstacles) {
+    const auto name = scene.obstacle_names().find(o.id);
+    if (name != scene.obstacle_names().end()) json.key(std::to_string(o.id)).text(name->second);
+  }
+  json.end_object();
   return json.end_object().take();
 }
 
@@ -140,7 +147,7 @@ std::string timing_json(const Scene& scene) {
   const PlanTiming& t = *scene.timing();
   JsonWriter json;
   json.begin_object().key("request").integer(t.request_id).key("total_ms").number(t.total_ms);
-  json.key("allowed_ms").number(scene.allowed_ms()).key("first_answer_ms").number(t.first_answer_ms);
+  json.key("allowed_ms").number(scene.allowed_system_ms()).key("first_answer_ms").number(t.first_answer_ms);
   json.key("stage_ms").begin_list();
   for (const double ms : t.stage_ms) json.number(ms);
   json.end_list().key("expansions").integer(t.expansions).key("hulls").integer(t.hulls);
@@ -148,9 +155,9 @@ std::string timing_json(const Scene& scene) {
   return json.end_object().take();
 }
 
-std::string hulls_json(const Scene& scene, double reach, int most) {
+std::string hulls_json(const Scene& scene, Duration ahead, double reach, int most) {
   if (!scene.tracks() || !scene.plan() || scene.plan()->outcome == PlanOutcome::NoPlan) return kNothing;
-  const PredictedHulls made = predicted_hulls(*scene.tracks(), scene.plan()->trajectory, reach, most);
+  const PredictedHulls made = predicted_hulls(*scene.tracks(), scene.plan()->trajectory, ahead, reach, most);
   JsonWriter json;
   json.begin_object().key("left_out").integer(made.left_out).key("hulls").begin_list();
   for (const PredictedHull& hull : made.hulls) {

@@ -16,8 +16,11 @@ std::string request_json(const Scene& scene);
 /// @param planes  include the certificate's planes
 std::string plan_json(const Scene& scene, bool planes);
 std::string timing_json(const Scene& scene);
-/// Hulls of the moving tracks within `reach` m of the plan, from the newest predictions; at most `most`.
-std::string hulls_json(const Scene& scene, double reach, int most);
+/// Hulls of the moving tracks within `reach` m of the plan, from the newest predictions, for the intervals that begin
+/// before `ahead`; at most `most`.
+std::string hulls_json(const Scene& scene, Duration ahead, double reach, int most);
+/// The newest detections of each sensor, and the moving tracks with their α at present and their age.
+std::string tracked_json(const Scene& scene, const TrackAges& ages);
 /// Edges of the search tree, six numbers each.
 std::string search_json(const Scene& scene);
 std::string map_json(const Scene& scene);
@@ -26,7 +29,8 @@ std::string health_json(const Scene& scene, UTime now);
 std::string goal_json(const Scene& scene);
 std::string result_json(const Scene& scene);
 
-/// All messages of one picked object, for people: {"title": …, "messages": [{"channel": …, fields …}]}.
+/// All messages of one picked object, for people: {"title": …, "messages": [{"channel": …, fields …}]}; for a true
+/// obstacle also "clearance_m".
 std::string detail_json(const Scene& scene, const PickCommand& pick);
 
 }  // namespace tern

@@ -13,6 +13,7 @@ LayersCommand Subscriptions::layers() const {
   LayersCommand all;
   for (const auto& [client, page] : by_page_) {
     all.hulls = all.hulls || page.layers.hulls;
+    all.tracks = all.tracks || page.layers.tracks;
     all.planes = all.planes || page.layers.planes;
     all.search = all.search || page.layers.search;
   }

@@ -6,6 +6,8 @@
 namespace tern {
 namespace {
 
+/// Hulls are drawn for the first second of the plan: those of later intervals fill the whole scene of a crowd.
+constexpr Duration kHullsAhead{1'000'000};
 /// Hulls are drawn for tracks within this distance of the plan, m; at most kMaxHulls (about 10 ms of work).
 constexpr double kHullReach = 2.0;
 constexpr int kMaxHulls = 240;
@@ -41,7 +43,8 @@ std::string topic_json(Topic topic, const TopicSource& source) {
     case Topic::Request: return request_json(scene);
     case Topic::Plan: return plan_json(scene, source.layers.planes);
     case Topic::Timing: return timing_json(scene);
-    case Topic::Hulls: return hulls_json(scene, kHullReach, kMaxHulls);
+    case Topic::Hulls: return hulls_json(scene, kHullsAhead, kHullReach, kMaxHulls);
+    case Topic::Tracked: return tracked_json(scene, source.memory.ages);
     case Topic::Search: return search_json(scene);
     case Topic::Map: return map_json(scene);
     case Topic::Health: return health_json(scene, source.now);

@@ -127,18 +127,21 @@ VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels) {
   return surface;
 }
 
-double distance_to_occupied(const VoxelSurface& surface, const Vec3& p) {
+double distance_to_occupied(const VoxelSurface& surface, const BodyDistance& body, const Vec3& p) {
   const VoxelGrid& grid = surface.grid;
   const Eigen::Vector3i cell = grid.cell_of(p);
-  if (grid.contains(cell) && surface.occupied[idx(grid.index(cell))]) return 0.0;
-  double nearest = std::numeric_limits<double>::infinity();
+  const Vec3 reach = body.bounds().max().cwiseMax(-body.bounds().min());
+  const bool is_inside = grid.contains(cell) && surface.occupied[idx(grid.index(cell))];
+  double nearest = is_inside ? -reach.minCoeff() : std::numeric_limits<double>::infinity();
   for (const VoxelFace& face : surface.faces) {
     if (face.label != VoxelLabel::Occupied) continue;
     const Vec3 low = grid.origin + grid.resolution * face.low.cast<double>();
     const Vec3 high = grid.origin + grid.resolution * face.high.cast<double>();
-    nearest = std::min(nearest, (p - p.cwiseMax(low).cwiseMin(high)).squaredNorm());
+    const double from_position = (p - p.cwiseMax(low).cwiseMin(high)).norm();
+    if (from_position - reach.norm() >= nearest) continue;
+    nearest = std::min(nearest, body(p - 0.5 * (low + high), 0.5 * (high - low)));
   }
-  return std::sqrt(nearest);
+  return nearest;
 }
 
 }  // namespace tern

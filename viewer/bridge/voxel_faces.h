@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/world/body_distance.h"
 #include "core/world/voxel_map.h"
 
 namespace tern {
@@ -28,8 +29,9 @@ struct VoxelSurface {
 /// A coarse voxel gets the first of these labels that it contains: occupied, repulsive, attractive. O(voxels).
 VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels = 4'000'000);
 
-/// Returns the distance from p to the nearest occupied voxel as drawn, m: 0 inside one, infinity if there is none. In a
-/// coarsened map it is at most the true distance. O(faces).
-double distance_to_occupied(const VoxelSurface& surface, const Vec3& p);
+/// Returns the signed distance from the body at p to the nearest face of an occupied voxel as drawn, m; infinity if
+/// there is none. A body that reaches through a face, or whose position is inside an occupied voxel, has a negative
+/// distance. In a coarsened map it is at most the true distance. O(faces).
+double distance_to_occupied(const VoxelSurface& surface, const BodyDistance& body, const Vec3& p);
 
 }  // namespace tern

@@ -42,6 +42,7 @@ Duration spacing(Topic topic) {
   switch (topic) {
     case Topic::Truth: return Duration{100'000};
     case Topic::Tracks:
+    case Topic::Tracked:
     case Topic::Hulls: return Duration{200'000};
     case Topic::Health: return Duration{1'000'000};
     default: return kStep;
@@ -57,7 +58,7 @@ struct Row {
 using Rows = std::map<Topic, Row>;
 
 Rows play(LogPlayer& player, const LayersCommand& layers) {
-  Scene scene;
+  Scene scene(nullptr, player.note().pace);
   SceneIntake intake(scene);
   Rows rows;
   player.seek(player.begin(), scene, intake);
@@ -68,7 +69,8 @@ Rows play(LogPlayer& player, const LayersCommand& layers) {
       const auto topic = static_cast<Topic>(k);
       Row& row = rows[topic];
       const bool is_due = row.at.empty() || now - row.at.back() >= spacing(topic) || now == player.end();
-      const bool is_hidden = (topic == Topic::Hulls && !layers.hulls) || (topic == Topic::Tracks && scene.truth());
+      const bool is_hidden = (topic == Topic::Hulls && !layers.hulls) || (topic == Topic::Tracked && !layers.tracks) ||
+                             (topic == Topic::Tracks && scene.truth());
       if (is_hidden || is_of_the_past(topic) || !is_due || !scene.take_change(topic)) continue;
       std::string json = topic_json(topic, {scene, player.memory(), player.zero(), player.end(), now, layers, {}});
       if (row.json.empty() ? json == "null" : json == row.json.back()) continue;
@@ -80,9 +82,10 @@ Rows play(LogPlayer& player, const LayersCommand& layers) {
   }
 }
 
-std::string session_json(const PageExport& wanted) {
+std::string session_json(const PageExport& wanted, const LogPlayer& player) {
   JsonWriter json;
   json.begin_object().key("mode").text("file").key("goals").flag(false).key("name").text(wanted.log);
+  json.key("why").text(player.note().why);
   return json.key("epoch").integer(0).end_object().take();
 }
 
@@ -91,7 +94,7 @@ Result<std::string> still_json(const PageExport& wanted, const LogPlayer& player
   const Scene nothing;
   const TopicSource source{nothing, player.memory(), player.zero(), player.end(), player.end(), {}, fields};
   JsonWriter json;
-  json.begin_object().key("session").raw(session_json(wanted));
+  json.begin_object().key("session").raw(session_json(wanted, player));
   for (const Topic topic : {Topic::Chart, Topic::Path, Topic::Fields, Topic::Events}) {
     json.key(to_string(topic)).raw(topic_json(topic, source));
   }
@@ -175,8 +178,12 @@ Result<ExportedPage> export_page(const PageExport& wanted) {
   const double departure_s = seconds(player->memory().history.departure().value_or(player->begin()));
   const double minutes = std::max((end_s - begin_s) / 60.0, 1.0);
   const auto most = static_cast<std::size_t>(minutes * static_cast<double>(kMaxBytesPerMinute));
-  constexpr std::array<std::pair<LayersCommand, const char*>, 3> kDetails = {
-      {{{true, true, true}, ""}, {{false, true, true}, "hulls"}, {{false, false, true}, "hulls and planes"}}};
+  player->remember_tracks();
+  constexpr std::array<std::pair<LayersCommand, const char*>, 4> kDetails = {
+      {{{true, true, true, true}, ""},
+       {{false, true, true, true}, "hulls"},
+       {{false, true, true, false}, "hulls and tracks"},
+       {{false, false, true, false}, "hulls, tracks and planes"}}};
   for (const auto& [layers, left_out] : kDetails) {
     auto html = inline_page(*files, base64(deflated(tape_json(*player, *still, play(*player, layers)))));
     if (!html) return fail(html.error().message);

@@ -21,6 +21,7 @@ constexpr std::size_t kMaxChannels = 256;
 std::size_t messages_needed(std::string_view channel) {
   if (channel == channels::kObstacleTruth.name || channel == channels::kPredictions.name)
     return 2 * std::size_t{kMaxBatches};
+  if (channel == channels::kObstacleObservations.name) return kMaxSensors;
   if (channel == channels::kHorizonRequest.name) return Scene::kRememberedRequests;
   if (channel == channels::kHeartbeat.name || channel == channels::kConfiguration.name) return 64;
   return 1;
@@ -28,9 +29,10 @@ std::size_t messages_needed(std::string_view channel) {
 
 /// The channels of charts, path and timeline.
 bool is_remembered(std::string_view channel) {
-  constexpr std::tuple kRemembered{channels::kUavState,  channels::kObstacleTruth, channels::kHorizonRequest,
-                                   channels::kPlan,      channels::kPlanTiming,    channels::kGoal,
-                                   channels::kHeartbeat, channels::kFlightResult,  channels::kSemanticMap};
+  constexpr std::tuple kRemembered{channels::kUavState,       channels::kVehicleTruth, channels::kObstacleTruth,
+                                   channels::kHorizonRequest, channels::kPlan,         channels::kPlanTiming,
+                                   channels::kGoal,           channels::kHeartbeat,    channels::kFlightResult,
+                                   channels::kSemanticMap};
   return visit_channel(
       channel, [](const auto&) {}, kRemembered);
 }
@@ -90,13 +92,13 @@ Result<LogPlayer> LogPlayer::open(const std::string& path, const std::string& su
     files.emplace_back(part, std::ios::binary);
     if (!files.back()) return fail(part + ": cannot be opened");
   }
-  LogPlayer player(std::move(files), std::move(*index));
+  LogPlayer player(std::move(files), std::move(*index), read_flight_note(path));
   player.build_memory();
   return player;
 }
 
-LogPlayer::LogPlayer(std::vector<std::ifstream> files, LogIndex index)
-    : files_(std::move(files)), index_(std::move(index)) {
+LogPlayer::LogPlayer(std::vector<std::ifstream> files, LogIndex index, FlightNote note)
+    : files_(std::move(files)), index_(std::move(index)), note_(std::move(note)) {
   by_channel_.resize(index_.channels.size());
   for (std::size_t k = 0; k < index_.entries.size(); ++k) {
     by_channel_[idx(index_.entries[k].channel)].push_back(static_cast<std::uint32_t>(k));
@@ -105,7 +107,7 @@ LogPlayer::LogPlayer(std::vector<std::ifstream> files, LogIndex index)
 }
 
 void LogPlayer::build_memory() {
-  Scene scene(&memory_);
+  Scene scene(&memory_, note_.pace);
   SceneIntake intake(scene);
   std::vector<bool> wanted;
   for (const std::string& channel : index_.channels) wanted.push_back(is_remembered(channel));
@@ -113,6 +115,15 @@ void LogPlayer::build_memory() {
     if (wanted[idx(index_.entries[k].channel)]) feed(k, intake);
   }
   body_radius_ = scene.body_radius();
+}
+
+void LogPlayer::remember_tracks() {
+  if (std::exchange(remembers_tracks_, true)) return;
+  const auto found = std::ranges::find(index_.channels, channels::kPredictions.name);
+  if (found == index_.channels.end()) return;
+  Scene scene(&memory_);
+  SceneIntake intake(scene);
+  for (const std::uint32_t entry : by_channel_[idx(found - index_.channels.begin())]) feed(entry, intake);
 }
 
 void LogPlayer::play(bool on, UTime wall_now) {

@@ -8,6 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/base/time.h"
+#include "viewer/bridge/app/flight_note.h"
 #include "viewer/bridge/app/scene_intake.h"
 
 namespace tern {
@@ -42,8 +43,13 @@ class LogPlayer {
   [[nodiscard]] UTime position() const { return position_; }
   [[nodiscard]] bool playing() const { return playing_; }
   [[nodiscard]] const Scene::Memory& memory() const { return memory_; }
+  /// Returns what the summary beside the log says.
+  [[nodiscard]] const FlightNote& note() const { return note_; }
   /// Returns the radius of the ball around the vehicle's body, m; 0 if no request tells it.
   [[nodiscard]] double body_radius() const { return body_radius_; }
+
+  /// Reads all predictions once, so memory() has the ages of the tracks. Takes about a second per gigabyte of log.
+  void remember_tracks();
 
   void play(bool on, UTime wall_now);
   void set_speed(double factor) { speed_ = factor; }
@@ -58,7 +64,7 @@ class LogPlayer {
   [[nodiscard]] std::string json() const;
 
  private:
-  LogPlayer(std::vector<std::ifstream> files, LogIndex index);
+  LogPlayer(std::vector<std::ifstream> files, LogIndex index, FlightNote note);
   void build_memory();
   [[nodiscard]] std::size_t first_after(UTime t) const;
   void feed(std::size_t entry, SceneIntake& intake);
@@ -69,12 +75,13 @@ class LogPlayer {
   std::vector<std::ifstream> files_;
   LogIndex index_;
   std::vector<std::vector<std::uint32_t>> by_channel_;  ///< entries of each channel
+  FlightNote note_;
   Scene::Memory memory_;
   double body_radius_ = 0.0;
   std::vector<std::uint8_t> buffer_;
   UTime position_, wall_{};
   std::size_t next_ = 0;  ///< the first entry that is not yet played
-  bool playing_ = false;
+  bool playing_ = false, remembers_tracks_ = false;
   double speed_ = 1.0;
   std::int64_t refused_ = 0;
 };

@@ -27,7 +27,7 @@ class SceneIntake {
 
  private:
   template <class T>
-  void take(const T& message, UTime at);
+  void take(const Channel<T>& channel, const T& message, UTime at);
 
   Scene& scene_;
   BatchCollector<ObstacleTruth> truth_;

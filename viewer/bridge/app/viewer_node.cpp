@@ -23,6 +23,7 @@ constexpr Duration kStepPeriod{33'000};
 Duration period(Topic topic) {
   switch (topic) {
     case Topic::Tracks:
+    case Topic::Tracked:
     case Topic::Hulls: return Duration{200'000};
     case Topic::Chart:
     case Topic::Path:
@@ -40,13 +41,14 @@ ViewerNode::ViewerNode(Bus& bus, const Scenario& scenario, ViewerOptions options
     : bus_(bus),
       scenario_(scenario),
       options_(std::move(options)),
-      scene_(options_.log.empty() ? &memory_ : nullptr),
+      scene_(options_.log.empty() ? &memory_ : nullptr, pace()),
       intake_(scene_),
       next_step_(bus.clock().now()) {
   if (options_.log.empty()) {
     intake_.subscribe(bus);
   } else {
     player_ = value_or_throw(LogPlayer::open(options_.log, bus.suffix()));
+    scene_ = Scene(nullptr, player_->note().pace);
     player_->seek(player_->begin(), scene_, intake_);
     player_->play(true, bus.clock().now());
   }
@@ -74,12 +76,16 @@ void ViewerNode::listen() {
   if (!options_.url_file.empty()) std::ofstream(options_.url_file) << url_ << '\n';
 }
 
+double ViewerNode::pace() const {
+  constexpr Duration kSecond{1'000'000};
+  return 1.0 / bus_.clock().in_system_time(kSecond).seconds();
+}
+
 void ViewerNode::post_session() {
   JsonWriter json;
   json.begin_object().key("mode").text(player_ ? "log" : "live").key("goals").flag(options_.allow_goals && !player_);
   json.key("name").text(player_ ? options_.log : scenario_.name).key("build").text(build_id());
-  constexpr Duration kSecond{1'000'000};
-  json.key("pace").number(1.0 / bus_.clock().in_system_time(kSecond).seconds());
+  json.key("pace").number(pace()).key("why").text(player_ ? player_->note().why : "");
   json.key("epoch").integer(bus_.epoch_us()).end_object();
   board_.post(Topic::Session, json.take());
 }
@@ -107,7 +113,8 @@ void ViewerNode::execute(const ClientCommand& received, UTime now) {
 
 void ViewerNode::execute(std::int64_t client, const LayersCommand& layers, UTime) {
   subscriptions_.take(client, layers);
-  for (const Topic topic : {Topic::Plan, Topic::Hulls, Topic::Search}) scene_.mark(topic);
+  for (const Topic topic : {Topic::Plan, Topic::Hulls, Topic::Tracked, Topic::Search}) scene_.mark(topic);
+  if (player_ && layers.tracks) player_->remember_tracks();
 }
 
 void ViewerNode::execute(std::int64_t client, const SeriesCommand& series, UTime) {
@@ -185,6 +192,7 @@ bool ViewerNode::is_wanted(Topic topic) const {
   switch (topic) {
     case Topic::Session: return false;
     case Topic::Hulls: return subscriptions_.layers().hulls;
+    case Topic::Tracked: return subscriptions_.layers().tracks;
     case Topic::Search: return subscriptions_.layers().search;
     case Topic::Ghost: return ghost_.has_value();
     default: return true;

@@ -48,6 +48,8 @@ class ViewerNode final : public Node {
 
  private:
   void listen();
+  /// Returns the seconds of flight per second of the system's clock, of this process.
+  [[nodiscard]] double pace() const;
   void post_session();
   void execute(const ClientCommand& command, UTime now);
   void execute(std::int64_t client, const LayersCommand& layers, UTime now);

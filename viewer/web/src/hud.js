@@ -72,8 +72,8 @@ export function takePlan(plan) {
   waiting.set('plan', () => showPlan(plan));
 }
 
-export function takeTiming(timing, pace) {
-  waiting.set('timing', () => showTiming(timing, pace));
+export function takeTiming(timing) {
+  waiting.set('timing', () => showTiming(timing));
 }
 
 function showState(state, goal) {
@@ -116,8 +116,8 @@ function confidenceOf(plan) {
   return `${plan.confidence}${plan.sure_for_s === undefined ? '' : ` for ${fixed(plan.sure_for_s, 1, 's')}`}`;
 }
 
-/** @param timing  null: no answer yet  @param pace  seconds of flight per second of the wall; times are converted to the flight's */
-function showTiming(timing, pace) {
+/** @param timing  null: no answer yet; both times are by the system's clock */
+function showTiming(timing) {
   for (const field of ['total_ms', 'allowed_ms', 'expansions', 'hulls']) shown[`PLAN_TIMING.${field}`] = timing?.[field];
   const meter = byId('meter');
   if (!timing) {
@@ -125,8 +125,7 @@ function showTiming(timing, pace) {
     say('replan', '–');
     return say('work', '–');
   }
-  const { total_ms, expansions, hulls } = timing;
-  const allowed_ms = timing.allowed_ms / pace;
+  const { total_ms, allowed_ms, expansions, hulls } = timing;
   say('replan', fixed(total_ms) + (allowed_ms > 0 ? ` of ${fixed(allowed_ms, 0)} ms` : ' ms'));
   say('work', `${expansions} · ${hulls}`);
   const share = allowed_ms > 0 ? total_ms / allowed_ms : 0;
@@ -141,6 +140,11 @@ export function showResult(result) {
   const least = [['obstacles', result.min_clearance_m], ['map', result.min_map_clearance_m]].filter(([, x]) => Number.isFinite(x));
   const words = least.map(([what, x]) => `${fixed(x, 3)} m to ${what}`).join(', ');
   say('reason', `${fixed(result.flight_time_s)} s, ${fixed(result.path_length_m, 0)} m${words && `; least ${words}`}`);
+}
+
+/** Shows the sentence on what held the vehicle. @param why  empty: none @param isOver  the flight has ended, or its log */
+export function showWhy(why, isOver) {
+  say('why', isOver && why ? why : '');
 }
 
 export function showClock(seconds) {

@@ -43,7 +43,7 @@ export class Inspector {
     setInterval(() => this.refresh(), REFRESH_MS);
   }
 
-  /** @param words  returns a sentence about the picked object, or nothing */
+  /** @param words  returns a sentence about the picked object from its detail, or nothing */
   open(pick, words = null) {
     this.pick = pick;
     this.words = words;
@@ -83,7 +83,7 @@ export class Inspector {
   show(detail) {
     if (!this.pick) return;
     const scroll = this.panel.scrollTop;
-    this.say(detail.title, this.words?.() ?? '');
+    this.say(detail.title, this.words?.(detail) ?? '');
     const parts = detail.messages.flatMap((message) => [cell('h3', message.channel), fields(message)]);
     document.getElementById('messages').replaceChildren(...(parts.length ? parts : [cell('p', detail.note ?? 'no message about it was received')]));
     this.panel.scrollTop = scroll;

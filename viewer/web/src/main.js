@@ -19,7 +19,9 @@ import { Regions } from './regions.js';
 import { Stream } from './stream.js';
 import { readTape, Tape } from './tape.js';
 import { QUIET } from './time_rows.js';
+import { Tags } from './tags.js';
 import { Timeline } from './timeline.js';
+import { Tracks } from './tracks.js';
 import { Trajectories } from './trajectories.js';
 import { Vehicle } from './vehicle.js';
 import { mapInWords, obstacleInWords } from './words.js';
@@ -34,6 +36,8 @@ const proofs = new Proofs(world.scene);
 const vehicle = new Vehicle(world.scene);
 const regions = new Regions(world, vehicle.p);
 const obstacles = new Obstacles(world, vehicle.p);
+const tracks = new Tracks(world.scene, vehicle.p);
+const tags = new Tags(document.getElementById('tags'));
 const ghost = new Ghost(world.scene);
 const layers = {};
 const known = {}; // the newest value of each topic
@@ -113,9 +117,10 @@ const topics = {
     proofs.takePlanes(layers.planes ? plan : null, obstacles.pickedId);
     hud.takePlan(plan);
   },
-  timing: (timing) => hud.takeTiming(timing, known.session?.pace ?? 1),
+  timing: (timing) => hud.takeTiming(timing),
   result: (result) => hud.showResult(result),
   hulls: (hulls) => proofs.takeHulls(hulls),
+  tracked: (message) => tracks.take(message),
   search: (search) => proofs.takeSearch(search),
   map(map) {
     if (map) regions.take(map);
@@ -157,7 +162,7 @@ function takeReply(message) {
 /** Starts over: another bridge, another flight, or its log. */
 function forget() {
   for (const key of Object.keys(known)) delete known[key];
-  for (const part of [obstacles, trajectories, proofs, vehicle, regions, ghost, cameras]) part.clear();
+  for (const part of [obstacles, trajectories, proofs, tracks, vehicle, regions, ghost, cameras]) part.clear();
   hud.forget();
   timeline.takeEvents([]);
   offer('ghost', false);
@@ -172,7 +177,7 @@ function sendSubscriptions() {
 
 function setLayer(name, on) {
   layers[name] = on;
-  for (const part of [trajectories, proofs, regions, ghost]) part.show(name, on);
+  for (const part of [trajectories, proofs, tracks, regions, ghost]) part.show(name, on);
   if (name === 'obstacles') obstacles.show(on);
   if (ON_DEMAND.includes(name)) send({ layers: ON_DEMAND.filter((other) => layers[other]) });
   if (name === 'planes') proofs.takePlanes(on ? known.plan : null, obstacles.pickedId);
@@ -236,7 +241,7 @@ const pointer = new Pointer(canvas, world, {
     if (!first.hit) return inspector.close();
     if (first.pick.kind === 'obstacle') first.pick.id = first.hit.id;
     pickObstacle(first.pick.id);
-    const words = { obstacle: () => obstacleInWords(first.hit.id, known), map: () => mapInWords(first.hit, known) };
+    const words = { obstacle: (detail) => obstacleInWords(first.hit.id, known, detail.clearance_m), map: () => mapInWords(first.hit, known) };
     inspector.open(first.pick, words[first.pick.kind]);
   },
   orbit(ray) {
@@ -273,10 +278,11 @@ function picture(now, seconds) {
   const paused = known.player && !known.player.playing;
   const speed = paused ? 0 : (known.player?.speed ?? known.session?.pace ?? 1);
   const now_us = clock.at_us + (now - clock.arrived_ms) * 1e3 * speed;
-  for (const name of ON_DEMAND) showCount(name, layers[name] ? proofs.counts[name] : null);
+  const drawn = { ...proofs.counts, tracks: tracks.count };
+  for (const name of ON_DEMAND) showCount(name, layers[name] ? drawn[name] : null);
   vehicle.draw(now_us);
   vehicle.showBody(cameras.mode !== 'first');
-  trajectories.draw(now * 1e-3);
+  trajectories.draw(now * 1e-3, world.camera, innerHeight);
   if (vehicle.state) {
     const centre = cameras.mode === 'orbit' ? obstacles.where(obstacles.pickedId, now_us) : null;
     cameras.follow(vehicle.p, vehicle.state.v, centre, seconds);
@@ -286,6 +292,8 @@ function picture(now, seconds) {
   if (isRead && (vehicle.state || known.player)) showTime(flightTime(known.player?.at_us ?? clock.at_us));
   cameras.update();
   obstacles.draw(now_us, world.camera);
+  const size = { width: innerWidth, height: innerHeight };
+  tags.show([...obstacles.tags(now_us, world.camera, size), ...tracks.draw(now_us, world.camera, size)]);
   const news = touched || counts.frames !== framesDrawn;
   if (!world.adapt(now, !paused, news)) return;
   touched = false;
@@ -309,6 +317,7 @@ function showTime(t) {
   charts.setNow(t, known.state ? flightTime(known.state.at_us) : t, hud.numbers());
   timeline.setNow(t);
   hud.showClock(t);
+  hud.showWhy(known.session?.why, Boolean(known.result) || known.player?.at_us >= known.player?.end_us);
   if (!known.player) return player.show(t, known.chart ? flightSpan(known.chart) : [t, t]);
   player.draw();
   controls.writeLink();
@@ -330,6 +339,7 @@ window.tern = {
     ...counts,
     obstacles: obstacles.count,
     hulls: proofs.counts.hulls,
+    tracks: tracks.count,
     planes: proofs.counts.planes,
     nodes: proofs.counts.search,
     regions: regions.group.children.length,

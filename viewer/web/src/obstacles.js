@@ -5,10 +5,12 @@ import { repeated, touch } from './copies.js';
 import { cutaway, SIEVE_RADIUS } from './cutaway.js';
 import { numbers } from './form.js';
 import { palette } from './palette.js';
+import { placeInWindow } from './tags.js';
 
 const MOST = 4096; // most boxes that are drawn
 const SIEVE_FAR = 40; // m from the vehicle towards the camera
 const THRIFTY_SPOTS = 15; // m; a renderer without a GPU skips spots farther away
+const NAMED = 30; // m from the vehicle: names of obstacles farther away are not shown
 const LONGEST_GUESS_S = 0.25; // positions are extrapolated by velocity for at most this long
 
 function spotTexture() {
@@ -133,7 +135,7 @@ export class Obstacles {
   }
 
   /**
-   * @param set  {at_us, id, moves, p, v, h}: a row per obstacle; p, v, h are flat, three numbers each
+   * @param set  {at_us, id, moves, p, v, h, names}: a row per obstacle; p, v, h are flat, three numbers each; names by id
    * @throws RangeError if the lists differ in length
    */
   take(set) {
@@ -155,6 +157,18 @@ export class Obstacles {
     const { p, v } = this.set;
     const dt = this.guess(now_us);
     return new THREE.Vector3(...[0, 1, 2].map((axis) => p[3 * k + axis] + v[3 * k + axis] * dt));
+  }
+
+  /** Returns the tags of the obstacles that have a name. @param window  its size, CSS pixels */
+  tags(now_us, camera, window) {
+    if (!this.set?.names || !this.boxes.mesh.visible) return [];
+    return Object.entries(this.set.names).flatMap(([id, text]) => {
+      const at = this.where(Number(id), now_us);
+      if (!at || at.distanceTo(this.vehicle) > NAMED) return [];
+      const half = this.set.h[3 * this.set.id.indexOf(Number(id)) + 2];
+      const place = placeInWindow([at.x, at.y, at.z + half], camera, window);
+      return place ? [{ ...place, text }] : [];
+    });
   }
 
   /** Returns the seconds from the set to now, limited to LONGEST_GUESS_S. */

@@ -5,19 +5,19 @@ import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const PATCH = 0.9; // half the side of a drawn plane, m
-const HULL = 0.09; // opacity of a few hulls; with more than MANY it is reduced
-const MANY = 16;
+const CREASE = 0.999; // cosine of the smallest angle between two faces whose common edge is drawn
 const SOON = new THREE.Color(palette.hull);
 const LATER = new THREE.Color(palette.hullLater);
 
-/** Appends the triangles of a convex hull to `out`. */
-function triangulate(points, out) {
+/** Appends the edges of a convex hull to `out`, two points each; not those between triangles of one face. */
+export function outline(points, out) {
   const hull = new ConvexHull().setFromPoints(points);
   for (const face of hull.faces) {
     let edge = face.edge;
     do {
-      const { x, y, z } = edge.head().point;
-      out.push(x, y, z);
+      const [from, to] = [edge.tail().point, edge.head().point];
+      const isOnce = from.x - to.x || from.y - to.y || from.z - to.z; // the other face has it the other way round
+      if (isOnce > 0 && face.normal.dot(edge.twin.face.normal) < CREASE) out.push(...from.toArray(), ...to.toArray());
       edge = edge.next;
     } while (edge !== face.edge);
   }
@@ -30,8 +30,9 @@ function translucent(color, opacity) {
 
 export class Proofs {
   constructor(scene) {
-    this.hulls = new THREE.Mesh(new THREE.BufferGeometry(), translucent('#ffffff', HULL));
-    this.hulls.material.vertexColors = true;
+    // Outlines: many translucent faces, seen from within, would be fog.
+    this.hulls = new THREE.LineSegments(
+      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.7, depthWrite: false }));
     this.planes = new THREE.Group();
     this.patches = new THREE.Mesh(new THREE.BufferGeometry(), translucent(palette.plane, 0.18));
     this.frames = new THREE.LineSegments(
@@ -61,17 +62,17 @@ export class Proofs {
     const positions = [];
     const colors = [];
     const color = new THREE.Color();
+    const last = (message?.hulls ?? []).reduce((most, { interval }) => Math.max(most, interval), 1);
     for (const hull of message?.hulls ?? []) {
       const points = [];
       numbers(hull.points, 3);
       for (let k = 0; k < hull.points.length; k += 3) points.push(new THREE.Vector3().fromArray(hull.points, k));
       if (points.length < 4) continue;
-      triangulate(points, positions);
-      color.copy(SOON).lerp(LATER, Math.min(hull.interval / 6, 1));
+      outline(points, positions);
+      color.copy(SOON).lerp(LATER, hull.interval / last);
       while (colors.length < positions.length) colors.push(color.r, color.g, color.b);
     }
     this.counts.hulls = message?.hulls?.length ?? 0;
-    this.hulls.material.opacity = HULL * Math.min(1, Math.sqrt(MANY / Math.max(this.counts.hulls, 1))); // many overlap
     this.fill(this.hulls, positions, colors);
   }
 

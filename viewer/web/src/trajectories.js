@@ -8,6 +8,8 @@ import { numbers, point } from './form.js';
 import { palette, speedColor } from './palette.js';
 import { countUpTo } from './time_rows.js';
 
+const RING = 0.35; // m, radius of the goal's ring
+const RING_PX = 14; // its least radius in the window
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 const FACES = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
 
@@ -139,7 +141,7 @@ export class Trajectories {
       new THREE.OctahedronGeometry(0.13), new THREE.MeshLambertMaterial({ color: palette.goal, emissive: '#6b4d00' }));
     this.goal = new THREE.Group();
     const ring = new THREE.Mesh(
-      new THREE.TorusGeometry(0.35, 0.025, 10, 48), new THREE.MeshBasicMaterial({ color: palette.goal }));
+      new THREE.TorusGeometry(RING, RING / 14, 10, 48), new THREE.MeshBasicMaterial({ color: palette.goal }));
     const stem = new THREE.Mesh(
       new THREE.CylinderGeometry(0.012, 0.012, 1, 8), new THREE.MeshBasicMaterial({ color: palette.goal, transparent: true, opacity: 0.5 }));
     stem.rotation.x = Math.PI / 2;
@@ -219,9 +221,15 @@ export class Trajectories {
     this.goal.stem.position.z = -goal.p[2] / 2;
   }
 
-  draw(seconds) {
+  /** Turns the goal's ring to the camera, so it is a circle from any side, and one that is seen from afar. @param height  px */
+  draw(seconds, camera, height) {
     this.localGoal.rotation.z = 1.2 * seconds;
-    this.goal.children[0].rotation.set(Math.PI / 2, 0.5 * seconds, 0);
+    const [ring] = this.goal.children;
+    const metres = camera.isOrthographicCamera
+      ? (camera.top - camera.bottom) / camera.zoom
+      : (2 * this.goal.position.distanceTo(camera.position) * Math.tan(THREE.MathUtils.degToRad(camera.fov / 2))) / camera.zoom;
+    ring.scale.setScalar(Math.max((RING_PX * metres) / height / RING, 1));
+    ring.quaternion.copy(camera.quaternion);
   }
 
   show(layer, on) {

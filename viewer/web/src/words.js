@@ -2,13 +2,8 @@
 
 const metres = (x) => `${x.toFixed(2)} m`;
 
-/** The distance from a point to a box, 0 inside. */
-function distanceToBox(p, centre, half) {
-  return Math.hypot(...p.map((x, k) => Math.max(Math.abs(x - centre[k]) - half[k], 0)));
-}
-
-function fromBody(distance, known) {
-  const clear = distance - (known.request?.radius ?? 0);
+/** @param clear  from the body, m: the bridge computes it as the referee does */
+function fromBody(clear) {
   return clear < 0 ? `the vehicle overlaps it by ${metres(-clear)}` : `the vehicle is ${metres(clear)} away`;
 }
 
@@ -16,15 +11,15 @@ function size(half) {
   return `${half.map((h) => (2 * h).toFixed(1)).join(' × ')} m`;
 }
 
-/** @param known  the newest value of each topic */
-export function obstacleInWords(id, known) {
+/** @param known  the newest value of each topic @param clearance  of this obstacle, m; undefined: unknown */
+export function obstacleInWords(id, known, clearance) {
   const set = known.truth ?? known.tracks;
   const k = set?.id.indexOf(id) ?? -1;
   if (k < 0) return 'It has gone.';
   const row = (list) => list.slice(3 * k, 3 * k + 3);
   const speed = Math.hypot(...row(set.v));
   const parts = [`${set.moves[k] ? `Moving at ${speed.toFixed(1)} m/s` : 'Stationary'}, ${size(row(set.h))}`];
-  if (known.state) parts.push(fromBody(distanceToBox(known.state.p, row(set.p), row(set.h)), known));
+  if (Number.isFinite(clearance)) parts.push(fromBody(clearance));
   const isPredicted = known.tracks?.id.includes(id);
   if (known.tracks) parts.push(isPredicted ? 'the planner knows it from PREDICTIONS' : 'the planner does not know it: PREDICTIONS lacks it');
   const planes = (known.plan?.planes ?? []).filter((plane) => plane.track === id).length;
@@ -39,10 +34,10 @@ export function mapInWords({ point: at, layer }, known) {
   const parts = [KINDS[layer], `here at ${at.toArray().map((x) => x.toFixed(1)).join(', ')}`];
   if (known.state) {
     const away = Math.hypot(...known.state.p.map((x, k) => at.getComponent(k) - x));
-    parts.push(fromBody(away, known));
+    parts.push(`${metres(away)} from the vehicle's centre`);
   }
   if (layer === 'walls' && Number.isFinite(known.state?.map_clearance)) {
-    parts.push(`its nearest wall is ${metres(known.state.map_clearance)} away`);
+    parts.push(`the vehicle's nearest wall is ${metres(known.state.map_clearance)} from its body`);
   }
   return `${parts.join('; ')}.`;
 }
