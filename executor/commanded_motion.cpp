@@ -134,6 +134,12 @@ TimedSpline braking_trajectory(const MotionSample& from, UTime at, const Limits&
 CommandedMotion::CommandedMotion(const Vec3& p, UTime from, const Limits& limits)
     : limits_(limits), settled_(p, from), newest_{.p = p}, received_until_(from), committed_(p, from) {}
 
+CommandedMotion::CommandedMotion(const UavState& setpoint, const Limits& limits)
+    : CommandedMotion(setpoint.motion.p, setpoint.at, limits) {
+  yaw_ = setpoint.yaw;
+  choose_continuation(setpoint.motion, setpoint.at);
+}
+
 void CommandedMotion::receive(const UavState& setpoint) {
   const UTime end = settled_.end();
   if (setpoint.at <= end) return;

@@ -30,6 +30,8 @@ class CommandedMotion {
  public:
   /// Constructs a command at rest at p (W, m) until the first setpoint. @param limits  for braking
   CommandedMotion(const Vec3& p, UTime from, const Limits& limits);
+  /// Constructs the command that begins with this setpoint, as for a vehicle's bridge that joins a flight.
+  CommandedMotion(const UavState& setpoint, const Limits& limits);
 
   /// Takes a SETPOINT.
   ///

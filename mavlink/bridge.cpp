@@ -58,6 +58,7 @@ void Bridge::enter(Stage stage, const std::string& why) {
     next_command_ = now_;
     refusal_.clear();
     landing_seen_ = take_off_asked_ = false;
+    if (stage == Stage::Waiting) own_.reset();
     if (stage == Stage::Engaging && !found_) found_ = Found{autopilot_.mode(), autopilot_.armed()};
   }
   stage_ = stage;
@@ -90,8 +91,10 @@ void Bridge::receive(const Frame& frame, UTime received) {
 }
 
 void Bridge::receive(const UavState& setpoint) {
+  if (setpoint_received_) return command_.receive(setpoint);
+  if (now_ - setpoint.at > kSetpointSilence) return;  // of an executor that has ended
   setpoint_received_ = true;
-  command_.receive(setpoint);
+  command_ = CommandedMotion(setpoint, uav_.limits);
 }
 
 void Bridge::order_flight() {
@@ -237,9 +240,9 @@ void Bridge::hold_here(UTime now) {
   if (!here) return;
   const bool dead = followed_ && !estimate_fault(now).empty();  // the last command is all that is known
   own_ = dead ? last_sent_ : *here;
-  const Vec3 v = own_.motion.v;
-  own_.motion.p += v * (v.norm() / (2.0 * kStop));
-  own_.motion.v = own_.motion.a = own_.motion.j = Vec3::Zero();
+  MotionSample& own = own_->motion;
+  own.p += own.v * (own.v.norm() / (2.0 * kStop));
+  own.v = own.a = own.j = Vec3::Zero();
 }
 
 void Bridge::step(UTime now) {

@@ -64,7 +64,8 @@ const char* to_string(Stage stage);
 /// | order_flight(): a new GOAL                                  | StoodBack, Landed   | Waiting                   |
 /// | the pilot's switch, start pilot                             | StoodBack           | Waiting                   |
 ///
-/// A restarted bridge passes through Waiting and Ready to Following if the vehicle flies in the following mode.
+/// A restarted bridge passes through Waiting and Ready to Following if the vehicle flies in the following mode. It sends
+/// no setpoint in Waiting, so the first one is at the present estimate. The first SETPOINT is its command at once.
 /// SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
 /// vehicle is commanded to stop, with a dead estimate at the place of the last setpoint, and VEHICLE_STATUS reports
 /// *not following*.
@@ -224,7 +225,7 @@ class Bridge {
   bool lag_was_logged_ = false;
   bool clock_is_off_ = false;  ///< logged for this flight
   UavState last_sent_;         ///< newest command sent while following
-  UavState own_;               ///< command while not following: at rest here, or climbing
+  std::optional<UavState> own_;  ///< command while not following: at rest here, or climbing; none in stage Waiting
   std::string refusal_;        ///< text of the newest refused command
   std::uint8_t sequence_ = 0;
   std::vector<Frame> out_;

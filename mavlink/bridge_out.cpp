@@ -122,15 +122,17 @@ bool Bridge::is_silent() const {
 }
 
 void Bridge::stream(UTime now) {
-  if (is_silent() || may_be_in_failsafe(now) || !state() || now < next_target_) return;
+  const bool holds_blindly = stage_ == Stage::StoodBack && !(autopilot_.linked(now) && estimate_fault(now).empty());
+  if (is_silent() || holds_blindly || may_be_in_failsafe(now) || now < next_target_) return;
   const Duration period = Duration::from_seconds(1.0 / config_.rate_hz);
   next_target_ = now + period;
-  if (!streaming_since_) streaming_since_ = now;
   if (stage_ == Stage::StoodBack) hold_here(now);
   const bool following = stage_ == Stage::Following && followed_;
+  if (!following && !own_) return;
+  if (!streaming_since_) streaming_since_ = now;
   // A setpoint that is held for a period is right on average if it is right in the middle. An ArduPilot extrapolates.
   const Duration held = autopilot_.firmware() == Firmware::ArduPilot ? Duration{} : Duration{period.us / 2};
-  const MotionSample m = following ? command_.sample(now + held) : own_.motion;
+  const MotionSample m = following ? command_.sample(now + held) : own_->motion;
   if (following) {
     last_sent_.motion = m;
     last_sent_.yaw = command_.yaw();
@@ -144,7 +146,7 @@ void Bridge::stream(UTime now) {
   target.p = ned_of(m.p - origin_);
   target.v = ned_of(m.v);
   target.a = ned_of(a);
-  target.yaw = static_cast<float>(swapped_yaw(following ? command_.yaw() : own_.yaw));
+  target.yaw = static_cast<float>(swapped_yaw(following ? command_.yaw() : own_->yaw));
   target.type_mask = kAllButYawRate;
   target.target_system = to.system;
   target.target_component = to.component;

@@ -34,7 +34,10 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 void Bridge::step_waiting(UTime now) {
   request_parameters(now);
   const std::string why = not_ready(now);
-  if (why.empty()) return enter(Stage::Ready);
+  if (why.empty()) {
+    hold_here(now);
+    return enter(Stage::Ready);
+  }
   // A silence that only grows longer is not logged again.
   if (autopilot_.linked(now) || !autopilot_.address()) enter(Stage::Waiting, why);
 }
@@ -119,18 +122,19 @@ void Bridge::step_engaging(UTime now) {
 }
 
 void Bridge::climb(UTime now) {
-  const Vec3 way = uav_.start - own_.motion.p;
+  MotionSample& own = own_->motion;
+  const Vec3 way = uav_.start - own.p;
   const auto here = state();
-  const bool waits = here && own_.motion.p.z() - here->motion.p.z() > kClimbAhead;
+  const bool waits = here && own.p.z() - here->motion.p.z() > kClimbAhead;
   const double left = way.norm(), next = waits ? 0.0 : config_.climb_speed * std::min((now - now_).seconds(), 0.1);
-  own_.motion.v = left > 1e-9 ? Vec3(way * (config_.climb_speed / left)) : Vec3::Zero();
+  own.v = left > 1e-9 ? Vec3(way * (config_.climb_speed / left)) : Vec3::Zero();
   if (left <= next) {
-    own_.motion.p = uav_.start;
-    own_.motion.v = Vec3::Zero();
+    own.p = uav_.start;
+    own.v = Vec3::Zero();
   } else {
-    own_.motion.p += way * (next / left);
+    own.p += way * (next / left);
   }
-  if (here && own_.motion.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere &&
+  if (here && own.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere &&
       here->motion.v.norm() < kThereSpeed && in_air()) {
     enter(Stage::Following);
   }

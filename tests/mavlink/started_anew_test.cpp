@@ -75,6 +75,76 @@ TEST(StartedAnew, TheTruthThatItSaysDoesNotStepByWhatTheEstimateIsOff) {
   EXPECT_THAT(flight.words, Contains(HasSubstr("in flight when first seen")));
 }
 
+/// An executor that goes on with its trajectory whether the vehicle follows or not.
+void keep_flying_along(FlightInMemory& flight) {
+  flight.speaks = false;
+  const UTime since = flight.now;
+  flight.each = [&flight, since] {
+    UavState setpoint;
+    setpoint.at = flight.now;
+    setpoint.motion = along((flight.now - since).seconds());
+    flight.bridge.receive(setpoint);
+  };
+}
+
+TEST(StartedAnew, ItsFirstSetpointIsWhereTheVehicleIsAndItJoinsTheFlight) {
+  for (const Start start : {Start::Arm, Start::Pilot}) {
+    FlightInMemory flight;
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+    keep_flying_along(flight);
+    flight.run(4.0);
+    flight.config.start = start;
+    flight.bridge_runs = false;
+    flight.run(0.05);
+    flight.bridge_runs = true;
+    flight.bridge = Bridge(flight.config, FlightInMemory::uav(), flight.now);
+    int sent = 0;
+    flight.sent = [&](const Frame& frame) {
+      const auto target = from_frame<SetPositionTargetLocalNed>(frame);
+      if (!target) return;
+      ++sent;
+      ASSERT_LT((enu_of(target->p) - flight.autopilot.model().truth().motion.p).norm(), 0.8);
+    };
+    const UTime begun = flight.now;
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }, 5.0));
+    EXPECT_LT((flight.now - begun).seconds(), 0.4) << "its failsafe comes 0.5 s after the last setpoint";
+    flight.run(3.0);
+    EXPECT_TRUE(flight.following());
+    EXPECT_GT(sent, 100);
+  }
+}
+
+TEST(StartedAnew, OrderedToFlyAgainItHoldsWhereTheVehicleIsNow) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.path = along;
+  flight.run(4.0);
+  flight.bridge.land("the flight has ended");
+  ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; }));
+  flight.bridge.order_flight();
+  int sent = 0;
+  flight.sent = [&](const Frame& frame) {
+    const auto target = from_frame<SetPositionTargetLocalNed>(frame);
+    if (!target || flight.autopilot.armed()) return;
+    ++sent;
+    ASSERT_LT((enu_of(target->p) - flight.autopilot.model().truth().motion.p).norm(), 0.3);
+  };
+  flight.run(2.0);
+  EXPECT_GT(sent, 10);
+}
+
+TEST(StartedAnew, ASetpointOfAnExecutorThatHasEndedIsNotFlown) {
+  FlightInMemory flight;
+  flight.speaks = false;
+  ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Following; }));
+  UavState old;
+  old.at = flight.now - Duration{1'000'000};
+  old.motion.p = Vec3(0, 1, 2);
+  flight.bridge.receive(old);
+  flight.run(0.1);
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("no SETPOINT was received"));
+}
+
 TEST(StartedAnew, OnTheGroundItIsTheGroundThatDecides) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
