@@ -35,6 +35,7 @@ Bridge::Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now)
     : config_(config),
       uav_(uav),
       origin_(uav.start.x(), uav.start.y(), 0.0),
+      vision_(config.vision_apart_m),
       autopilot_(static_cast<std::uint8_t>(config.system)),
       command_(uav.start, now, uav.limits),
       ordered_(config.start == Start::Arm),
@@ -77,6 +78,7 @@ void Bridge::receive(const Frame& frame, UTime received) {
   if (frame.id == Heartbeat::kId) watch_mode(received);
   anchor_truth_at_first_sight();
   if (autopilot_.truth()) send_vision(*autopilot_.truth());
+  if (autopilot_.state()) vision_.estimated(*autopilot_.state(), autopilot_.resets());
   if (const auto question = from_frame<Timesync>(frame); question && question->tc1 == 0) {
     send(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
   }
@@ -187,6 +189,7 @@ std::string Bridge::not_ready(UTime now) const {
   if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
   if (std::string fault = clock_fault(); !fault.empty()) return fault;
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
+  if (std::string fault = vision_.fault(); !fault.empty()) return fault;
   if (!autopilot_.landed()) return "it does not report whether it has landed (EXTENDED_SYS_STATE)";
   if (!config_.check_parameters) return {};
   return parameter_faults(required(), autopilot_.parameters(), parameters_asked_ >= kMaxParameterRounds);
@@ -196,7 +199,13 @@ std::string Bridge::estimate_fault(UTime now) const {
   const auto& state = autopilot_.state();
   if (!state || now - state->at > kStateAge) return "it reports no position (ODOMETRY, LOCAL_POSITION_NED)";
   if (autopilot_.estimator() == EstimatorHealth::Lost) return "its estimator has no position (ESTIMATOR_STATUS)";
+  if (is_vision_silent(now)) return "there is no external vision to send (HIL_STATE_QUATERNION, VEHICLE_TRUTH)";
   return {};
+}
+
+bool Bridge::is_vision_silent(UTime now) const {
+  const auto newest = vision_.newest_vision();
+  return config_.external_vision && !(newest && now - *newest <= kStateAge);
 }
 
 std::string Bridge::why_not_following(UTime now) const {
@@ -204,10 +213,12 @@ std::string Bridge::why_not_following(UTime now) const {
     const std::string why = not_ready(now);
     return why.empty() ? to_string(stage_) : why;
   }
+  if (std::string fault = vision_.fault(); !fault.empty() && stage_ == Stage::Engaging) return fault;
   if (stage_ == Stage::Engaging && !refusal_.empty()) return refusal_;
   if (stage_ != Stage::Following) return fmt::format("{}{}{}", to_string(stage_), why_.empty() ? "" : ": ", why_);
   if (!autopilot_.linked(now)) return "no message from the autopilot for " + seconds(now - autopilot_.last_received());
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
+  if (std::string fault = vision_.fault(); !fault.empty()) return fault;
   if (!setpoint_received_) return "no SETPOINT was received";
   if (!setpoint_near(now)) return fmt::format("SETPOINT is more than {:g} m from the vehicle", config_.far_m);
   return {};

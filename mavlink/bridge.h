@@ -10,6 +10,7 @@
 #include "mavlink/bridge_config.h"
 #include "mavlink/required_parameters.h"
 #include "mavlink/tracking_lag.h"
+#include "mavlink/vision_check.h"
 
 namespace tern::mavlink {
 
@@ -59,16 +60,18 @@ const char* to_string(Stage stage);
 /// | mode or arming changed by another sender; no success in 120 s | Engaging          | StoodBack                 |
 /// | the autopilot leaves the following mode, or disarms         | Climbing, Following | StoodBack                 |
 /// | battery below battery_land                                  | Climbing, Following | Landing                   |
+/// | the estimate is apart from external vision for 1 s          | Climbing, Following | Landing                   |
 /// | FLIGHT_RESULT, or the process ends                          | Engaging, Climbing, Following | Landing         |
 /// | the autopilot leaves the landing mode                       | Landing             | StoodBack                 |
 /// | order_flight(): a new GOAL                                  | StoodBack, Landed   | Waiting                   |
 /// | the pilot's switch, start pilot                             | StoodBack           | Waiting                   |
 ///
-/// A restarted bridge passes through Waiting and Ready to Following if the vehicle flies in the following mode. It sends
-/// no setpoint in Waiting, so the first one is at the present estimate. The first SETPOINT is its command at once.
-/// SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
+/// A restarted bridge passes through Waiting and Ready to Following if the vehicle flies in the following mode. It
+/// sends no setpoint in Waiting, so the first one is at the present estimate. The first SETPOINT is its command at
+/// once. SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
 /// vehicle is commanded to stop, with a dead estimate at the place of the last setpoint, and VEHICLE_STATUS reports
-/// *not following*.
+/// *not following*. So it does while the estimate is apart from external vision (VisionCheck): there the vehicle is
+/// commanded to stay where the autopilot estimates it at each moment, since any other setpoint would move it.
 ///
 /// **Setpoints.** SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz, with p and v of the command, the yaw, and
 /// acceleration_gain·a(now + lead_s) + drag_per_s·v. The gain applies to the level axes: the vertical loop of an
@@ -140,6 +143,7 @@ class Bridge {
   void step_flying(UTime now);
   void step_landing(UTime now);
   void climb(UTime now);
+  void stay_while_apart(UTime now);
   void stand_back(const std::string& why);
   [[nodiscard]] bool is_taken_over();
   [[nodiscard]] std::string other_pilot_reason() const;
@@ -171,6 +175,7 @@ class Bridge {
   [[nodiscard]] std::vector<RequiredParameter> required() const;
   [[nodiscard]] std::string not_ready(UTime now) const;
   [[nodiscard]] std::string estimate_fault(UTime now) const;
+  [[nodiscard]] bool is_vision_silent(UTime now) const;
   [[nodiscard]] std::string ground_fault() const;
   [[nodiscard]] std::string why_not_following(UTime now) const;
   [[nodiscard]] bool setpoint_near(UTime now) const;
@@ -186,8 +191,9 @@ class Bridge {
 
   BridgeConfig config_;
   UavSpec uav_;
-  Vec3 origin_;                       ///< origin of the local frame, in W, m
-  UTime sent_vision_;                 ///< time of the newest state sent as ODOMETRY
+  Vec3 origin_;        ///< origin of the local frame, in W, m
+  UTime sent_vision_;  ///< time of the newest state sent as ODOMETRY
+  VisionCheck vision_;
   std::optional<Vec3> truth_anchor_;  ///< added to the position of the truth
   Autopilot autopilot_;
   CommandedMotion command_;
@@ -223,10 +229,10 @@ class Bridge {
   TrackingLag lag_;
   UTime lag_at_;
   bool lag_was_logged_ = false;
-  bool clock_is_off_ = false;  ///< logged for this flight
-  UavState last_sent_;         ///< newest command sent while following
+  bool clock_is_off_ = false;    ///< logged for this flight
+  UavState last_sent_;           ///< newest command sent while following
   std::optional<UavState> own_;  ///< command while not following: at rest here, or climbing; none in stage Waiting
-  std::string refusal_;        ///< text of the newest refused command
+  std::string refusal_;          ///< text of the newest refused command
   std::uint8_t sequence_ = 0;
   std::vector<Frame> out_;
   std::vector<std::string> log_lines_;

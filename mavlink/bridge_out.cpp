@@ -88,6 +88,7 @@ void Bridge::receive_vision(const UavState& seen) {
 void Bridge::send_vision(const UavState& local) {
   if (!config_.external_vision || !autopilot_.address() || local.at < sent_vision_ + kVisionPeriod) return;
   sent_vision_ = local.at;
+  vision_.sent(local);
   const Eigen::Quaterniond level(Eigen::AngleAxisd(local.yaw, Vec3::UnitZ()));
   Odometry m;
   m.time_usec = static_cast<std::uint64_t>(local.at.us);

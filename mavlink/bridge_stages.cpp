@@ -26,6 +26,8 @@ constexpr Duration kDisarmPeriod{250'000};
 constexpr Duration kTakeOffPeriod{3'000'000};
 /// An ArduPilot reports home within this time: GLOBAL_POSITION_INT is requested at 5 Hz.
 constexpr Duration kHomePatience{1'000'000};
+/// An estimate that has been apart from external vision for this long is not waited for any longer.
+constexpr Duration kApartPatience{1'000'000};
 constexpr float kPx4Offboard = 6, kArduPilotGuided = 4;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -87,6 +89,7 @@ void Bridge::engage_next(UTime now) {
   const float mode = takes_off_by_command() ? kArduPilotGuided : kPx4Offboard;
   if (!autopilot_.follows()) return command_mode(now, autopilot_.following_mode(), kDoSetMode, {1, mode});
   if (!autopilot_.armed()) {
+    if (!vision_.fault().empty()) return;
     if (now >= next_command_) arm_asked_ = now;
     return command(now, kArmDisarm, {1});
   }
@@ -140,6 +143,13 @@ void Bridge::climb(UTime now) {
   }
 }
 
+/// The estimate moves, so the place to stay at is taken anew each time.
+void Bridge::stay_while_apart(UTime now) {
+  followed_ = false;
+  hold_here(now);
+  if (vision_.apart_for() >= kApartPatience) land(vision_.fault());
+}
+
 void Bridge::step_flying(UTime now) {
   if (!autopilot_.linked(now)) return;
   if (!autopilot_.armed()) return stand_back("the autopilot has disarmed");
@@ -150,6 +160,7 @@ void Bridge::step_flying(UTime now) {
     return land(fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
   }
   watch_clock();
+  if (!vision_.fault().empty()) return stay_while_apart(now);
   if (stage_ == Stage::Climbing) return climb(now);
   const bool near = setpoint_received_ && setpoint_near(now) && estimate_fault(now).empty();
   if (!near && followed_) hold_here(now);
@@ -171,7 +182,7 @@ void Bridge::step_landing(UTime now) {
     if (!arming) return enter(Stage::Landed, why_);
     return request_disarm(now);
   }
-  if (followed_) hold_here(now);
+  if (followed_ || !vision_.fault().empty()) hold_here(now);
   followed_ = false;
   if (autopilot_.landing()) {
     landing_seen_ = true;

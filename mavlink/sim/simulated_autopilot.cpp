@@ -26,6 +26,8 @@ constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCE
 constexpr std::uint8_t kUnknownSource = 0, kNaive = 1, kVision = 2, kVio = 3, kLocalNed = 1;
 /// After this long without ODOMETRY the estimator has no position (EKF2_NOAID_TOUT is longer).
 constexpr Duration kVisionLoss{1'000'000};
+/// After a longer gap the estimator takes external vision up anew, metres away, and corrects itself later.
+constexpr Duration kVisionGap{400'000}, kVisionAway{5'000'000};
 
 bool is_integer(const std::string& name) { return std::ranges::find(kIntegers, name) != kIntegers.end(); }
 
@@ -51,9 +53,9 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
                   {"EKF2_EV_CTRL", 0.0},     {"EKF2_HGT_REF", 1.0},      {"EKF2_GPS_CTRL", 7.0},
                   {"EKF2_MAG_TYPE", 0.0},    {"EKF2_BARO_CTRL", 1.0},    {"SIM_ARM_REFUSE", 0.0},
                   {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0},      {"GUID_TIMEOUT", 3.0},
-                  {"FS_GCS_ENABLE", 0.0},    {"SIM_HOME_UP", 0.0},       {"MC_AIRMODE", 0.0},
-                  {"MPC_ACC_DECOUPLE", 1.0}, {"SYSID_MYGCS", 255.0},     {"ANGLE_MAX", 3000.0},
-                  {"PSC_JERK_XY", 5.0},      {"PSC_JERK_Z", 5.0}} {
+                  {"SIM_EV_JUMP", 8.3},      {"FS_GCS_ENABLE", 0.0},     {"SIM_HOME_UP", 0.0},
+                  {"MC_AIRMODE", 0.0},       {"MPC_ACC_DECOUPLE", 1.0},  {"SYSID_MYGCS", 255.0},
+                  {"ANGLE_MAX", 3000.0},     {"PSC_JERK_XY", 5.0},       {"PSC_JERK_Z", 5.0}} {
   model_.set_armed(false);
   tune();
   begin_streams(now);
@@ -154,7 +156,19 @@ void SimulatedAutopilot::receive_vision(const Odometry& seen, UTime now) {
   const auto finite = [](const auto& values) {
     return std::ranges::all_of(values, [](float x) { return std::isfinite(x); });
   };
-  if (known && seen.frame_id == kLocalNed && finite(seen.p) && finite(seen.q)) vision_received_ = now;
+  if (!known || seen.frame_id != kLocalNed || !finite(seen.p) || !finite(seen.q)) return;
+  const bool was_away = armed_ && vision_received_ && now - *vision_received_ > kVisionGap;
+  vision_received_ = now;
+  if (!was_away || parameters_["EKF2_EV_CTRL"] != 15.0 || parameters_["EKF2_GPS_CTRL"] != 0.0) return;
+  jump_up(parameters_["SIM_EV_JUMP"]);
+  jumps_back_ = now + kVisionAway;
+}
+
+void SimulatedAutopilot::jump_up(double metres) {
+  if (metres == 0.0) return;
+  jumped_up_ += metres;
+  model_.jump_estimate(Vec3(0.0, 0.0, metres));
+  if (mode_ != Mode::Offboard) command_.motion.p.z() += metres;
 }
 
 void SimulatedAutopilot::disarm() {
@@ -338,6 +352,10 @@ void SimulatedAutopilot::fly(UTime now) {
 }
 
 void SimulatedAutopilot::step(UTime now) {
+  if (jumps_back_ && now >= *jumps_back_) {
+    jumps_back_.reset();
+    jump_up(-jumped_up_);
+  }
   watch_offboard(now);
   fly(now);
   send_streams(now);

@@ -66,12 +66,15 @@ struct SimulatedAutopilotConfig {
 /// - PX4 refuses to arm while NAV_DLL_ACT requires a ground station and none sends HEARTBEAT.
 /// - With EKF2_GPS_CTRL 0 it has a position only while EKF2_EV_CTRL is 15 and ODOMETRY arrives. It reports the model's
 ///   position and velocity in any case.
+/// - If such a vehicle is armed and ODOMETRY comes back after more than 0.4 s, the estimate jumps up by SIM_EV_JUMP
+/// (8.3
+///   m, as measured), and back after 5 s. Setpoints stay where they were sent; own modes move along.
 /// - Any system may command it, with the right target. Requests for unknown parameters get no answer.
 /// - The velocity loop has the D term MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
 /// - ArduPilot's home is where it was armed, shifted up by SIM_HOME_UP.
 ///
 /// Own parameters: SIM_ARM_REFUSE (refuses to arm), SIM_BAT_PCT (battery charge, %), SIM_EST_JUMP (writing it shifts
-/// the estimate by so many metres).
+/// the estimate by so many metres), SIM_EV_JUMP.
 class SimulatedAutopilot {
  public:
   SimulatedAutopilot(const SimulatedAutopilotConfig& config, std::uint64_t seed, UTime now);
@@ -111,6 +114,7 @@ class SimulatedAutopilot {
   void fly_guided(UTime t);
   void begin_streams(UTime now);
   void receive_vision(const Odometry& seen, UTime now);
+  void jump_up(double metres);
   void receive_target(const SetPositionTargetLocalNed& target, UTime now);
   void set_parameter(const std::string& name, double value);
   void tune();
@@ -143,6 +147,8 @@ class SimulatedAutopilot {
   UavState target_;  ///< newest setpoint, local ENU
   std::optional<UTime> streaming_since_, last_target_, landed_since_, ramp_since_;
   std::optional<UTime> ground_station_received_, vision_received_;
+  std::optional<UTime> jumps_back_;  ///< the estimate's jump after a gap of the vision ends
+  double jumped_up_ = 0.0;           ///< by that, m
   UTime armed_since_;
   double home_up_ = 0.0;                ///< in the estimate's frame, m
   std::optional<double> takes_off_to_;  ///< in the estimate's frame, m

@@ -18,7 +18,11 @@ Vec3 Estimator::normal() {
 
 void Estimator::jump(double metres) {
   const double direction = rng_.uniform(0.0, 2.0 * std::numbers::pi);
-  jumped_ += metres * Vec3(std::cos(direction), std::sin(direction), 0.0);
+  jump(metres * Vec3(std::cos(direction), std::sin(direction), 0.0));
+}
+
+void Estimator::jump(const Vec3& by) {
+  jumped_ += by;
   ++jumps_;
 }
 

@@ -47,6 +47,8 @@ class Estimator {
   [[nodiscard]] Vec3 velocity_error() const { return velocity_; }                 ///< m/s
   /// Shifts the estimate by so many metres, level, in a random direction.
   void jump(double metres);
+  /// Shifts the estimate, m.
+  void jump(const Vec3& by);
   [[nodiscard]] int jumps() const { return jumps_; }  ///< number so far
 
  private:

@@ -76,6 +76,8 @@ class QuadrotorModel {
   void tune(const FlightControllerSpec& gains) { controller_.tune(gains); }
   /// Resets the estimator with a shift of so many metres.
   void jump_estimate(double metres) { estimator_.jump(metres); }
+  /// The same by a given shift, m.
+  void jump_estimate(const Vec3& by) { estimator_.jump(by); }
   [[nodiscard]] int resets() const { return estimator_.jumps(); }
   [[nodiscard]] const QuadrotorState& state() const { return state_; }
 
