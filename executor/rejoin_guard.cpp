@@ -36,16 +36,38 @@ std::optional<std::string> RejoinGuard::check_rejoin(const Vec3& commanded, cons
   }
   if (!counts) return std::nullopt;
   const double by = (measured - commanded).norm();
-  const double sum = std::max(shift_ - kForgiven * (at - last_).seconds(), 0.0) + by;
+  const Shift next{false, by, at};
+  const double sum = sum_with(next);
   if (sum > kMaxShift) {
     return fmt::format(
         "the vehicle does not follow its setpoints: it is {:.2f} m off again, {:.2f} m in all (limit "
         "{:g} m). Is UAV_STATE in the frame that the autopilot flies in?",
         by, sum, kMaxShift);
   }
-  shift_ = sum;
-  last_ = at;
+  keep(next, sum);
   return std::nullopt;
+}
+
+std::optional<std::string> RejoinGuard::check_reset(const Vec3& by, UTime at) {
+  const Shift next{true, by.norm(), at};
+  const double sum = sum_with(next);
+  if (sum > kMaxShift) {
+    return fmt::format("the estimator has shifted the vehicle by {:.2f} m, by {:.2f} m in all (limit {:g} m)", next.by,
+                       sum, kMaxShift);
+  }
+  keep(next, sum);
+  return std::nullopt;
+}
+
+double RejoinGuard::sum_with(const Shift& next) const {
+  const double before = std::max(shift_ - kForgiven * (next.at - last_.at).seconds(), 0.0);
+  const bool is_same = next.is_reset != last_.is_reset && next.at - last_.at <= kSameShift;
+  return before + (is_same ? std::max(next.by - last_.by, 0.0) : next.by);
+}
+
+void RejoinGuard::keep(const Shift& next, double sum) {
+  shift_ = sum;
+  last_ = next;
 }
 
 void RejoinGuard::add_excursion(const Box& flown) {

@@ -23,7 +23,10 @@ namespace tern {
 /// | off the trajectory, sum of shifts up to kMaxShift                | allowed; the sum decays by kForgiven        |
 /// | off the trajectory, sum above kMaxShift                          | refused                                     |
 ///
-/// After a refusal of check_rejoin() the vehicle must not be commanded any further.
+/// A reset that the estimator announces counts in the same sum: the tube grows by it, so that it needs no rejoin, and
+/// the vehicle is led away all the same. A rejoin within kSameShift of a reset is taken for the same shift.
+///
+/// After a refusal of check_rejoin() or check_reset() the vehicle must not be commanded any further.
 class RejoinGuard {
  public:
   static constexpr double kStartOutside = 0.5;    ///< m beyond the flight box, per axis: a vehicle that climbs there
@@ -32,6 +35,9 @@ class RejoinGuard {
   static constexpr double kMinExcursion = 0.5;    ///< m: a first excursion counts as at least this large on each side
   static constexpr double kMaxShift = 3.0;        ///< m: sum of the rejoins' distances
   static constexpr double kForgiven = 0.05;       ///< m/s: the sum decays at this rate
+
+  /// A jump of UAV_STATE and VEHICLE_STATUS, which announces it at 10 Hz, may be this far apart.
+  static constexpr Duration kSameShift{500'000};
 
   /// @param allowed  where the vehicle's centre may be so that its body is inside the flight box, W
   /// @param start_reach_m  farthest start from uav.start, m
@@ -47,6 +53,8 @@ class RejoinGuard {
   /// @return why the vehicle must not be commanded any further, as text; nullopt if it may rejoin
   [[nodiscard]] std::optional<std::string> check_rejoin(const Vec3& commanded, const Vec3& measured, bool counts,
                                                         UTime at);
+  /// Adds an announced reset of the estimator. @param by  its shift, m, W  @return as check_rejoin
+  [[nodiscard]] std::optional<std::string> check_reset(const Vec3& by, UTime at);
   /// Takes the trajectory that a rejoin has committed to. If it leaves the flight box, its bounds are the first
   /// excursion. @param flown  bounds of the positions
   void add_excursion(const Box& flown);
@@ -56,12 +64,20 @@ class RejoinGuard {
  private:
   /// Where the vehicle may be commanded: the flight box and the first excursion, or kMaxExcursion before there is one.
   [[nodiscard]] Box bound() const;
+  struct Shift {
+    bool is_reset = false;
+    double by = 0.0;  ///< m
+    UTime at;
+  };
+  /// The sum of shifts with this one. The caller keeps it if the sum is allowed.
+  [[nodiscard]] double sum_with(const Shift& next) const;
+  void keep(const Shift& next, double sum);
 
   Box allowed_;
   double start_reach_m_;
   std::optional<Box> excursion_;
   double shift_ = 0.0;  ///< m, at last_
-  UTime last_;
+  Shift last_;
 };
 
 }  // namespace tern

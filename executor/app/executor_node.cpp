@@ -131,6 +131,8 @@ void ExecutorNode::on_estimate_shift(const std::optional<Vec3>& by) {
   if (!by || !has_followed_) return;  // before the first flight, a shift moves the frame W with it
   tube_.add_shift(*by);
   spdlog::warn("the estimator has shifted the vehicle by ({:.2f}, {:.2f}, {:.2f}) m", by->x(), by->y(), by->z());
+  if (!executor_ || !lost_.empty() || !is_commanded()) return;
+  if (const auto refusal = guard_.check_reset(*by, bus_.received())) lose(*refusal);
 }
 
 void ExecutorNode::update_tube(UTime now) { executor_->set_tube(tube_.width(sigma_, now), tube_.share()); }

@@ -34,7 +34,7 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// | Holding   | the vehicle is stationary: its position is committed          | SETPOINT, GOAL | no                |
 /// | Following | VEHICLE_STATUS reports that the vehicle follows               | SETPOINT, GOAL | unless mode Stop   |
 /// | Silent    | no setpoint for kSetpointSilence, or the vehicle follows again | GOAL          | no                |
-/// | Lost      | a rejoin is refused (RejoinGuard)                             | GOAL           | no                |
+/// | Lost      | RejoinGuard refuses a rejoin or a reset                       | GOAL           | no                |
 ///
 /// The vehicle follows if VEHICLE_STATUS says so, UAV_STATE and VEHICLE_STATUS are usable (VehicleInputs), and it is
 /// inside the flight box. HEARTBEAT says which of these fails.

@@ -60,6 +60,17 @@ TEST(RejoinGuard, ShiftsThatAreNotTheEstimatesDoNotCount) {
   for (int k = 0; k < 100; ++k) ASSERT_FALSE(guard.check_rejoin(kStart, kStart + Vec3(1, 0, 0), false, at(0.1 * k)));
 }
 
+TEST(RejoinGuard, AnnouncedResetsCountAsRejoinsDo) {
+  RejoinGuard guard(kAllowed);
+  EXPECT_FALSE(guard.check_reset(Vec3(0, 1.4, 0), at(0)));
+  EXPECT_FALSE(guard.check_rejoin(kStart, kStart + Vec3(0, 1.4, 0), true, at(0.1))) << "the same shift";
+  EXPECT_FALSE(guard.check_rejoin(kStart, kStart + Vec3(0, 1.5, 0), true, at(5)));
+  EXPECT_FALSE(guard.check_reset(Vec3(0, 1.5, 0), at(5.1))) << "the same shift, announced late";
+  EXPECT_THAT(guard.check_reset(Vec3(0, 0.6, 0), at(6)).value_or(""),
+              HasSubstr("the estimator has shifted the vehicle by 0.60 m, by 3."));
+  EXPECT_TRUE(RejoinGuard(kAllowed).check_reset(Vec3(0, 0, 8.3), at(0))) << "one is enough if it is large";
+}
+
 TEST(RejoinGuard, TheFirstExcursionIsTheLast) {
   RejoinGuard guard(kAllowed);
   EXPECT_FALSE(guard.check_rejoin(kStart, Vec3(0, 6.5, 1), false, at(0))) << "within kMaxExcursion";
