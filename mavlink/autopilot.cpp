@@ -14,8 +14,8 @@ constexpr std::uint8_t kInt32 = 6;
 constexpr std::uint8_t kFrameLocalNed = 1;
 constexpr std::uint8_t kOnGround = 1, kTakingOff = 3;
 constexpr std::uint8_t kWarning = 4;
-/// MAV_STATE that PX4 reports in a failsafe while armed.
-constexpr std::uint8_t kCritical = 5;
+/// MAV_STATE that an autopilot reports in a failsafe while armed.
+constexpr std::uint8_t kCritical = 5, kEmergency = 6;
 constexpr Duration kOdometryRules{500'000};
 /// Largest number of queued acknowledgements and texts.
 constexpr std::size_t kMaxQueued = 64;
@@ -100,7 +100,11 @@ const char* Autopilot::following_mode() const { return firmware() == Firmware::A
 
 const char* Autopilot::landing_mode() const { return firmware() == Firmware::ArduPilot ? "LAND" : "AUTO.LAND"; }
 
-bool Autopilot::in_failsafe() const { return armed() && heartbeat_.system_status == kCritical; }
+bool Autopilot::in_failsafe() const {
+  return armed() && (heartbeat_.system_status == kCritical || heartbeat_.system_status == kEmergency);
+}
+
+bool Autopilot::comes_down() const { return landing() || mode() == "AUTO.RTL" || mode() == "RTL"; }
 
 std::string Autopilot::last_warning() const {
   const bool says_no_reason = warning_.starts_with("Arming denied") && !failed_check_.empty();

@@ -68,8 +68,10 @@ class Autopilot {
   [[nodiscard]] const char* landing_mode() const;
   [[nodiscard]] bool follows() const { return mode() == following_mode(); }
   [[nodiscard]] bool landing() const { return mode() == landing_mode(); }
-  /// Whether it is in a failsafe (PX4: armed, and HEARTBEAT's system_status is critical).
+  /// Whether it is in a failsafe: armed, and HEARTBEAT's system_status is critical or emergency.
   [[nodiscard]] bool in_failsafe() const;
+  /// Whether the mode lands or returns, which a failsafe chooses.
+  [[nodiscard]] bool comes_down() const;
   [[nodiscard]] std::optional<bool> landed() const { return landed_; }
   /// Whether EXTENDED_SYS_STATE reports a take-off.
   [[nodiscard]] bool taking_off() const { return taking_off_; }

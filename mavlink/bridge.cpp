@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/world/flyable.h"
+
 namespace tern::mavlink {
 namespace {
 
@@ -16,7 +18,10 @@ constexpr Duration kHeld{4'000'000};
 constexpr double kLag = 0.1;
 /// Deceleration when the vehicle is taken over in flight, m/s².
 constexpr double kStop = 4.0;
-constexpr std::uint8_t kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
+constexpr std::uint8_t kGroundStation = 6, kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
+/// `not following` says for how long, from this time on.
+constexpr Duration kLong{1'000'000};
+constexpr std::size_t kMaxReason = 230;  // VEHICLE_STATUS has 256 bytes for it
 
 /// Old senders leave the target at 0.
 bool is_mine(const CommandAck& ack) { return ack.target_component == 0 || ack.target_component == kOwnComponent; }
@@ -87,7 +92,13 @@ void Bridge::receive(const Frame& frame, UTime received) {
     if (ack.command == kSetMessageInterval || ack.command == kRequestMessage || is_done || !is_mine(ack)) continue;
     refusal_ = fmt::format("{} {}", ack.command == kArmDisarm ? "arming" : fmt::format("command {}", ack.command),
                            result_text(ack.result));
-    if (!autopilot_.last_warning().empty()) refusal_ += ": " + autopilot_.last_warning();
+    if (!autopilot_.last_warning().empty()) {
+      refusal_ += ": " + autopilot_.last_warning();
+    } else if (autopilot_.firmware() == Firmware::Px4 && !is_ground_station()) {
+      refusal_ +=
+          ": a PX4 gives the reason to ground stations alone, and NAV_DLL_ACT, which is not 0, forbids the bridge "
+          "to be one";
+    }
   }
   for (const std::string& text : autopilot_.take_texts()) log_lines_.push_back("autopilot: " + text);
 }
@@ -114,8 +125,10 @@ void Bridge::flight_is_under_way() {
 
 void Bridge::land(const std::string& why) {
   ordered_ = ordered_by_goal_ = false;
+  if (stage_ == Stage::StoodBack && autopilot_.armed()) log_lines_.push_back(why + ": not landed, since " + why_);
   if (!flies() || stage_ == Stage::Landing) return;
-  if (!followed_) hold_here(now_);
+  hold_here(now_);
+  followed_ = false;
   enter(Stage::Landing, why);
   if (!autopilot_.armed() && arm_asked_ && now_ - *arm_asked_ < kCommandFlight) {
     log_lines_.push_back("the autopilot may still execute the arming request: disarming it");
@@ -215,6 +228,7 @@ std::string Bridge::why_not_following(UTime now) const {
   }
   if (std::string fault = vision_.fault(); !fault.empty() && stage_ == Stage::Engaging) return fault;
   if (stage_ == Stage::Engaging && !refusal_.empty()) return refusal_;
+  if (stage_ == Stage::Landing && !refusal_.empty()) return "landing: " + refusal_;
   if (stage_ != Stage::Following) return fmt::format("{}{}{}", to_string(stage_), why_.empty() ? "" : ": ", why_);
   if (!autopilot_.linked(now)) return "no message from the autopilot for " + seconds(now - autopilot_.last_received());
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
@@ -224,6 +238,48 @@ std::string Bridge::why_not_following(UTime now) const {
   return {};
 }
 
+std::string Bridge::beyond_last_bound(UTime now) const {
+  const auto here = state();
+  const Box inner = centre_box(uav_.flight_box, uav_.body);
+  const Box bound(inner.min() - Vec3::Constant(kLastBound), inner.max() + Vec3::Constant(kLastBound));
+  const auto text = [](const char* what, const Vec3& p) {
+    return fmt::format("{} is at ({:.1f}, {:.1f}, {:.1f}) m, more than {:g} m outside uav.flight_box", what, p.x(),
+                       p.y(), p.z(), kLastBound);
+  };
+  if (const Vec3 p = command_.sample(now).p; !bound.contains(p)) return text("SETPOINT", p);
+  return here && !bound.contains(here->motion.p) ? text("the vehicle", here->motion.p) : "";
+}
+
+bool Bridge::is_ground_station() const {
+  const auto action = autopilot_.parameters().find("NAV_DLL_ACT");
+  return autopilot_.firmware() == Firmware::Px4 && action != autopilot_.parameters().end() && action->second == 0.0;
+}
+
+void Bridge::send_heartbeats() {
+  send(Heartbeat{.type = kOnboardController, .autopilot = kNoAutopilot, .system_status = kActive});
+  if (!is_ground_station()) return;
+  out_.push_back(to_frame(Heartbeat{.type = kGroundStation, .autopilot = kNoAutopilot, .system_status = kActive},
+                          {autopilot_.address()->system, kGroundStationComponent}, ground_station_sequence_++));
+}
+
+void Bridge::watch_following(UTime now) {
+  if (!autopilot_.armed()) {
+    has_followed_ = false;
+    return not_following_since_.reset();
+  }
+  const std::string why = why_not_following(now);
+  if (why.empty()) {
+    if (not_following_since_) {
+      log_lines_.push_back(fmt::format("follows again, after {}", seconds(now - *not_following_since_)));
+    }
+    has_followed_ = true;
+    not_following_since_.reset();
+  } else if (has_followed_ && !not_following_since_) {
+    not_following_since_ = now;
+    log_lines_.push_back("does not follow: " + why);
+  }
+}
+
 VehicleStatus Bridge::status(UTime now) const {
   VehicleStatus status;
   status.at = now;
@@ -231,7 +287,10 @@ VehicleStatus Bridge::status(UTime now) const {
   status.why_not = why_not_following(now);
   status.following = status.armed && status.why_not.empty();
   if (!status.following && status.why_not.empty()) status.why_not = "not armed";
-  status.why_not.resize(std::min<std::size_t>(status.why_not.size(), 256));
+  status.why_not.resize(std::min(status.why_not.size(), kMaxReason));
+  if (not_following_since_ && now - *not_following_since_ >= kLong) {
+    status.why_not += fmt::format(" (for {:.0f} s)", (now - *not_following_since_).seconds());
+  }
   status.landed = autopilot_.landed().value_or(false);
   status.mode = autopilot_.mode();
   status.battery = autopilot_.battery();
@@ -263,7 +322,7 @@ void Bridge::step(UTime now) {
   now_ = now;
   if (now >= next_heartbeat_) {
     next_heartbeat_ = now + kHeartbeatPeriod;
-    send(Heartbeat{.type = kOnboardController, .autopilot = kNoAutopilot, .system_status = kActive});
+    send_heartbeats();
   }
   if (now >= next_timesync_ && autopilot_.address()) {
     next_timesync_ = now + kTimesyncPeriod;
@@ -272,6 +331,7 @@ void Bridge::step(UTime now) {
   request_streams(now);
   request_mode(now);
   stream(now);
+  watch_following(now);
 }
 
 }  // namespace tern::mavlink

@@ -14,8 +14,8 @@
 
 namespace tern::mavlink {
 
-/// MAV_COMP_ID_ONBOARD_COMPUTER.
-inline constexpr std::uint8_t kOwnComponent = 191;
+/// MAV_COMP_ID_ONBOARD_COMPUTER, and MAV_COMP_ID_MISSIONPLANNER of the HEARTBEAT as a ground station.
+inline constexpr std::uint8_t kOwnComponent = 191, kGroundStationComponent = 190;
 /// After this many requests, a parameter without an answer counts as absent. If 20 % of the packets are lost in one
 /// direction, all six are lost with probability 0.2⁶ = 6·10⁻⁵.
 inline constexpr int kMaxParameterRounds = 6;
@@ -58,6 +58,7 @@ const char* to_string(Stage stage);
 /// | the pilot's switch: armed in the following mode             | Ready               | Climbing or Following     |
 /// | armed in another mode (start arm, not ordered by GOAL)      | Ready               | StoodBack                 |
 /// | mode or arming changed by another sender; no success in 120 s | Engaging          | StoodBack                 |
+/// | SETPOINT or the vehicle beyond the last bound               | Following           | Landing                   |
 /// | the autopilot leaves the following mode, or disarms         | Climbing, Following | StoodBack                 |
 /// | battery below battery_land                                  | Climbing, Following | Landing                   |
 /// | the estimate is apart from external vision for 1 s          | Climbing, Following | Landing                   |
@@ -79,6 +80,11 @@ const char* to_string(Stage stage);
 /// ArduPilot extrapolates, so p and v are those of now. The bridge also sends HEARTBEAT at 2 Hz, TIMESYNC at 10 Hz, and
 /// in flight a request for the autopilot's HEARTBEAT at 5 Hz.
 ///
+/// **HEARTBEAT as a ground station.** A PX4 sends STATUSTEXT, which says why arming is denied, only to a link with a
+/// ground station. So the bridge sends a second HEARTBEAT of that type. It must never stand for an operator's ground
+/// station, or its end be taken for the loss of one. So it is sent only if NAV_DLL_ACT was read as 0: the autopilot
+/// then acts on no such loss. An ArduPilot sends STATUSTEXT to every link.
+///
 /// **A pilot's switch has priority.**
 /// 1. A mode is commanded only within 50 ms after HEARTBEAT has reported the current one. A request for HEARTBEAT
 ///    precedes the command, to learn the mode that the command ends.
@@ -94,6 +100,10 @@ const char* to_string(Stage stage);
 /// bridge waits for its end.
 class Bridge {
  public:
+  /// The last bound is the flight box (of the vehicle's centre), wider by this, m. tern-executor rejoins a vehicle up
+  /// to RejoinGuard::kMaxExcursion (2 m) outside, and needs as much to brake.
+  static constexpr double kLastBound = 4.0;
+
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
 
   void receive(const Frame& frame, UTime received);
@@ -147,6 +157,11 @@ class Bridge {
   void stand_back(const std::string& why);
   [[nodiscard]] bool is_taken_over();
   [[nodiscard]] std::string other_pilot_reason() const;
+  [[nodiscard]] std::string mode_change_reason() const;
+  [[nodiscard]] std::string failsafe_reason() const;
+  [[nodiscard]] std::string beyond_last_bound(UTime now) const;
+  [[nodiscard]] bool is_ground_station() const;
+  void watch_following(UTime now);
   void request_disarm(UTime now);
   void engage_next(UTime now);
   void request_parameters(UTime now);
@@ -188,6 +203,7 @@ class Bridge {
     const std::uint8_t system = autopilot_.address() ? autopilot_.address()->system : kSelf.system;
     out_.push_back(to_frame(message, {system, kSelf.component}, sequence_++));
   }
+  void send_heartbeats();
 
   BridgeConfig config_;
   UavSpec uav_;
@@ -233,7 +249,9 @@ class Bridge {
   UavState last_sent_;           ///< newest command sent while following
   std::optional<UavState> own_;  ///< command while not following: at rest here, or climbing; none in stage Waiting
   std::string refusal_;          ///< text of the newest refused command
-  std::uint8_t sequence_ = 0;
+  bool has_followed_ = false;    ///< since the vehicle was armed
+  std::optional<UTime> not_following_since_;  ///< if has_followed_
+  std::uint8_t sequence_ = 0, ground_station_sequence_ = 0;
   std::vector<Frame> out_;
   std::vector<std::string> log_lines_;
 };

@@ -42,8 +42,7 @@ void Bridge::watch_mode(UTime now) {
   }
   if (mode != commanded.wanted) {
     pilots_mode_ = {mode, autopilot_.mode_command()};
-    if (stage_ != Stage::StoodBack)
-      stand_back(fmt::format("the autopilot has changed to {}: another pilot flies", mode));
+    if (stage_ != Stage::StoodBack) stand_back(mode_change_reason());
     return;
   }
   if (!pilots_mode_ || gives_back) return forget_commanded_mode();

@@ -100,7 +100,21 @@ void Bridge::engage_next(UTime now) {
   if (std::abs(uav_.start.z() - here.p.z()) < kThere && here.v.norm() < kThereSpeed) enter(Stage::Climbing);
 }
 
+/// The autopilot's own reason for a mode that is not the bridge's, or "".
+std::string Bridge::failsafe_reason() const {
+  const bool has_no_pilot = config_.without_remote && autopilot_.armed() && autopilot_.comes_down();
+  if (!autopilot_.in_failsafe() && !has_no_pilot) return {};
+  return fmt::format("autopilot failsafe: it is in {}", autopilot_.mode());
+}
+
+std::string Bridge::mode_change_reason() const {
+  if (std::string failsafe = failsafe_reason(); !failsafe.empty()) return failsafe;
+  return fmt::format("the autopilot has changed to {}: {}", autopilot_.mode(),
+                     autopilot_.comes_down() ? "a pilot's command, or its failsafe" : "another pilot flies");
+}
+
 std::string Bridge::other_pilot_reason() const {
+  if (std::string failsafe = failsafe_reason(); !failsafe.empty()) return failsafe;
   return fmt::format("the vehicle is {}in {}: another pilot flies", autopilot_.armed() ? "armed " : "",
                      autopilot_.mode());
 }
@@ -153,9 +167,7 @@ void Bridge::stay_while_apart(UTime now) {
 void Bridge::step_flying(UTime now) {
   if (!autopilot_.linked(now)) return;
   if (!autopilot_.armed()) return stand_back("the autopilot has disarmed");
-  if (!autopilot_.follows()) {
-    return stand_back(fmt::format("the autopilot has changed to {}: another pilot flies", autopilot_.mode()));
-  }
+  if (!autopilot_.follows()) return stand_back(mode_change_reason());
   if (autopilot_.battery().value_or(1.0) < config_.battery_land) {
     return land(fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
   }
@@ -163,6 +175,9 @@ void Bridge::step_flying(UTime now) {
   if (!vision_.fault().empty()) return stay_while_apart(now);
   if (stage_ == Stage::Climbing) return climb(now);
   const bool near = setpoint_received_ && setpoint_near(now) && estimate_fault(now).empty();
+  if (near || followed_) {
+    if (const std::string far = beyond_last_bound(now); !far.empty()) return land(far);
+  }
   if (!near && followed_) hold_here(now);
   followed_ = near;
   if (near) watch_lag();
@@ -178,20 +193,16 @@ void Bridge::step_landing(UTime now) {
   if (!autopilot_.linked(now)) return;
   const bool arming = arm_asked_ && now - *arm_asked_ < kCommandFlight;
   if (!autopilot_.armed()) {
-    followed_ = false;
     if (!arming) return enter(Stage::Landed, why_);
     return request_disarm(now);
   }
-  if (followed_ || !vision_.fault().empty()) hold_here(now);
-  followed_ = false;
+  if (!vision_.fault().empty()) hold_here(now);
   if (autopilot_.landing()) {
     landing_seen_ = true;
     streaming_since_.reset();
     return;
   }
-  if (landing_seen_ || !autopilot_.follows()) {
-    return stand_back(fmt::format("the autopilot has changed to {}: another pilot flies", autopilot_.mode()));
-  }
+  if (landing_seen_ || !autopilot_.follows()) return stand_back(mode_change_reason());
   if (arming && !in_air()) return request_disarm(now);
   // An ArduPilot converts the unknown position to integers; it does not use it.
   const float here = autopilot_.firmware() == Firmware::ArduPilot ? 0.0F : kUnknown;

@@ -93,6 +93,8 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
     required.push_back({"COM_RCL_EXCEPT", 4, 31, 7, true, "without remote control it would leave OFFBOARD (bit 2)", 4});
     required.push_back(
         {"NAV_DLL_ACT", 0, 0, 0, true, "it would act on the loss of a ground station that does not exist"});
+  } else {
+    required.push_back({"NAV_DLL_ACT", -kAny, kAny, 0, true, "with 0 the bridge may be a ground station", 0, true});
   }
   for (const RequiredParameter& bound : bounds_of_px4(uav)) required.push_back(bound);
   if (!external_vision) return required;

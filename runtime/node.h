@@ -28,6 +28,9 @@ class Node {
   /// Called when next_wakeup() has come, and after each batch of messages. `now` never goes back.
   virtual void step(UTime now) = 0;
   [[nodiscard]] virtual NodeHealth health() const = 0;
+  /// Called for each signal that asks the process to end. @return whether it ends now; if not, the node goes on until
+  /// finished() has a code
+  [[nodiscard]] virtual bool end(UTime /*now*/) { return true; }
   /// The exit code, once the node has finished its work.
   [[nodiscard]] virtual std::optional<int> finished() const { return std::nullopt; }
 };

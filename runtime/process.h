@@ -89,6 +89,8 @@ class NodeHost {
   /// Steps the node if its wakeup has come or messages were delivered; then sends the due reports and paced messages. A
   /// node that has just finished reports it immediately on HEARTBEAT.
   void step(UTime now);
+  /// Asks the node to end, for a signal. @return whether it ends now
+  [[nodiscard]] bool end(UTime now) { return node_.end(now); }
   [[nodiscard]] const Node& node() const { return node_; }
   [[nodiscard]] const std::string& process() const { return process_; }
   [[nodiscard]] Bus& bus() const { return bus_; }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -34,6 +36,14 @@ bool wait(pollfd (&fds)[2], Duration sleep) {
   return fds[1].revents != 0;
 }
 
+/// Takes one signal, so that the next one is seen.
+void take_signal(int stop_fd) {
+  signalfd_siginfo info;
+  if (read(stop_fd, &info, sizeof(info)) < 0 && errno != EAGAIN && errno != EINTR) {
+    throw std::runtime_error(fmt::format("signalfd: {}", std::strerror(errno)));
+  }
+}
+
 }  // namespace
 
 int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
@@ -48,6 +58,8 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
     const UTime wakeup = host.next_wakeup();
     const Duration sleep = std::min(wakeup - clock.now(), kMaxSleep);
     if (wait(fds, clock.in_system_time(sleep))) {
+      take_signal(stop_fd);
+      if (!host.end(clock.now())) continue;
       // A recorder keeps all messages that have arrived; the others only look at them.
       drain(lcm, kListenCapacity, host.bus().listens() ? std::nullopt : std::optional(kMaxTimeAtStop));
       host.bus().rethrow();

@@ -6,8 +6,8 @@
 namespace tern {
 
 /// Waits for messages, the node's next wakeup or a signal, and steps the node.
-/// @param stop_fd  readable when the process is to end (a signalfd, a pipe); −1: none
-/// @return the node's exit code when it has finished; 0 when stop_fd became readable.
+/// @param stop_fd  readable when the process is to end (a signalfd, a pipe); Node::end() is asked; −1: none
+/// @return the node's exit code when it has finished; 0 when stop_fd became readable and the node ends.
 /// @throws the exception of a handler or the node; std::runtime_error if polling or LCM fails.
 int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd);
 

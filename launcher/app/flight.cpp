@@ -215,6 +215,7 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
     if (process.name == kViewer) signal = await_page(options, looked[0], signals);
     if (process.name == kLogger) signal = await_byte(listens[0], kLoggerStartS, signals).signal;
     if (signal != 0) {
+      supervisor.end_first(kMavlink, options.pace);
       supervisor.stop(kLogger);
       return kExitSignalled + signal;
     }

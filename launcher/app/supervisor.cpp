@@ -14,8 +14,8 @@ namespace {
 
 /// Time to end after SIGTERM: for most processes, and for the logger, which may still have to write messages.
 constexpr Duration kPatience{1'000'000}, kLastPatience{5'000'000};
-/// Time for tern-mavlink to land, with a small margin.
-constexpr Duration kLandingPatience{32'000'000};
+/// Longest wait until the vehicle is disarmed: a pilot may fly it. It is reported after kReportAfter.
+constexpr Duration kArmedPatience{600'000'000}, kReportAfter{2'000'000};
 constexpr Duration kLongPause{3'600'000'000};
 constexpr std::uint64_t kMemoryLimitKb = 4'000'000;
 
@@ -109,7 +109,32 @@ void Supervisor::end_first(const std::string& name, double pace) {
   for (Supervised& entry : supervised_) {
     if (entry.process.name == name) named.push_back(&entry);
   }
-  end(named, Duration::from_seconds(kLandingPatience.seconds() / pace));
+  if (have_ended(named)) return;
+  signal_all(named, SIGTERM);
+  const UTime begun = clock_.now();
+  UTime deadline = begun + Duration::from_seconds(kArmedPatience.seconds() / pace);
+  bool is_reported = false;
+  while (!have_ended(named) && clock_.now() < deadline) {
+    const UTime until = is_reported ? deadline : std::min(deadline, begun + kReportAfter);
+    const int signal = next_signal(signals_, until - clock_.now());
+    if (!is_reported && clock_.now() >= begun + kReportAfter) {
+      is_reported = true;
+      fmt::print(
+          stderr,
+          "tern-launch: waits until the vehicle is disarmed, at most {:.0f} s; Ctrl-C ends {} at once and leaves "
+          "the vehicle to its pilot or its failsafe\n",
+          (deadline - begun).seconds(), name);
+    } else if (is_reported && signal != 0 && signal != SIGCHLD) {
+      signal_all(named, SIGTERM);
+      deadline = std::min(deadline, clock_.now() + kPatience);
+    }
+  }
+  end(named, kPatience);
+  for (const Supervised* entry : named) {
+    if (shell_code(entry->end) == 0) continue;
+    fmt::print(stderr, "tern-launch: {} ended with {}: THE VEHICLE MAY STILL BE ARMED AND IN THE AIR; see its log\n",
+               name, to_text(entry->end));
+  }
 }
 
 void Supervisor::stop(const std::string& last) {
@@ -119,26 +144,36 @@ void Supervisor::stop(const std::string& last) {
   end(last_group, kLastPatience);
 }
 
-void Supervisor::end(const std::vector<Supervised*>& group, Duration patience) {
-  const UTime deadline = clock_.now() + patience;
+bool Supervisor::have_ended(const std::vector<Supervised*>& group) {
+  bool all = true;
   for (Supervised* entry : group) {
     entry->due.reset();
-    if (entry->pid) kill(*entry->pid, SIGTERM);
-  }
-  const auto all_ended = [&] {
-    bool all = true;
-    for (Supervised* entry : group) {
-      if (entry->pid && poll_child(*entry->pid)) entry->pid.reset();
-      all = all && !entry->pid;
+    const auto end = entry->pid ? poll_child(*entry->pid) : std::nullopt;
+    if (end) {
+      entry->end = *end;
+      entry->pid.reset();
     }
-    return all;
-  };
-  while (!all_ended() && clock_.now() < deadline) next_signal(set_of(SIGCHLD), deadline - clock_.now());
+    all = all && !entry->pid;
+  }
+  return all;
+}
+
+void Supervisor::signal_all(const std::vector<Supervised*>& group, int signal) {
+  for (const Supervised* entry : group) {
+    if (entry->pid) kill(*entry->pid, signal);
+  }
+}
+
+void Supervisor::end(const std::vector<Supervised*>& group, Duration patience) {
+  const UTime deadline = clock_.now() + patience;
+  if (have_ended(group)) return;
+  signal_all(group, SIGTERM);
+  while (!have_ended(group) && clock_.now() < deadline) next_signal(set_of(SIGCHLD), deadline - clock_.now());
   for (Supervised* entry : group) {
     if (!entry->pid) continue;
     fmt::print(stderr, "tern-launch: {} did not end in time and is killed\n", entry->process.name);
     kill(*entry->pid, SIGKILL);
-    (void)await_child(*entry->pid);
+    entry->end = await_child(*entry->pid);
     entry->pid.reset();
   }
 }

@@ -34,9 +34,10 @@ class Supervisor {
   /// Keeps all processes running until one ends that is not restarted, or a signal arrives. A restart is reported on
   /// the process's standard error.
   SupervisorEvent wait();
-  /// Ends a process before the others, if it runs: SIGTERM, then SIGKILL after 32 s of flight time. Meanwhile
-  /// tern-mavlink lands the vehicle.
-  /// @param pace  seconds of flight per second of the system's clock
+  /// Ends tern-mavlink before the others, if it runs. It gets SIGTERM, and goes on until the vehicle is disarmed: it
+  /// lands the vehicle, or serves the pilot who flies it. After 2 s this wait is reported on standard error. Then a
+  /// further signal ends it at once, and so does the end of kArmedPatience. A vehicle that may be armed is reported.
+  /// @param name  the bridge's process  @param pace  seconds of flight per second of the system's clock
   void end_first(const std::string& name, double pace);
   /// Ends all processes: SIGTERM to all except `last`, then SIGKILL to those left after 1 s. Then the same for `last`,
   /// which records the last messages and gets 5 s. Signals that arrive meanwhile stay pending.
@@ -47,6 +48,7 @@ class Supervisor {
   struct Supervised {
     SupervisedProcess process;
     std::optional<pid_t> pid;  ///< while it runs
+    ProcessEnd end;            ///< how it ended last
     UTime started;             ///< time of the last start
     std::optional<UTime> due;  ///< time of the next start
     Backoff backoff;
@@ -54,6 +56,8 @@ class Supervisor {
   };
   void run(Supervised& entry);
   void plan_restart(Supervised& entry, const ProcessEnd& end);
+  static bool have_ended(const std::vector<Supervised*>& group);
+  static void signal_all(const std::vector<Supervised*>& group, int signal);
   void end(const std::vector<Supervised*>& group, Duration patience);
 
   sigset_t signals_;
@@ -62,7 +66,7 @@ class Supervisor {
 };
 
 /// Runs a command and restarts it when it dies. SIGTERM, SIGINT and SIGHUP end the command by SIGTERM, and by SIGKILL 1
-/// s later. tern-mavlink first gets 32 s of its clock, to land the vehicle.
+/// s later. tern-mavlink is ended as by Supervisor::end_first.
 /// @param log  file for its output; empty: the output of this process
 /// @return the command's exit code if a restart cannot help; 0 after a signal
 int keep_alive(const std::vector<std::string>& command, const std::string& log);

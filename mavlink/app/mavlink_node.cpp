@@ -1,5 +1,6 @@
 #include "mavlink/app/mavlink_node.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -13,7 +14,9 @@ namespace {
 
 /// Period of polling the link.
 constexpr Duration kPollPeriod{2'000};
-constexpr Duration kStatusPeriod{100'000};
+constexpr Duration kStatusPeriod{100'000}, kReportPeriod{10'000'000};
+/// An autopilot sends HEARTBEAT once a second.
+constexpr Duration kFirstHeartbeat{2'000'000};
 /// VEHICLE_STATUS has 10 Hz: without one for this long there is no other bridge.
 constexpr Duration kListenFirst{350'000}, kOtherSilence{1'000'000};
 
@@ -34,6 +37,7 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
   bus_.subscribe(channels::kPlan, [this](const Plan& plan) { bridge_.receive(plan); });
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
+  bus_.subscribe(channels::kHeartbeat, [this](const tern::Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
   bus_.subscribe(channels::kVehicleTruth, [this](const UavState& seen) {
     if (seen.header.name.sender_epoch_us != bus_.epoch_us()) bridge_.receive_vision(seen);
   });
@@ -41,7 +45,7 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
 }
 
 MavlinkNode::~MavlinkNode() {
-  if (!bridge_.flies()) return;
+  if (exit_code_ || !bridge_.flies()) return;
   const UTime end = bus_.clock().now() + kLandPatience;
   bridge_.land("asked to end");
   for (UTime now = bus_.clock().now(); now < end && bridge_.stage() == Stage::Landing; now = bus_.clock().now()) {
@@ -65,6 +69,51 @@ void MavlinkNode::on_goal(const Goal& goal) {
 
 void MavlinkNode::on_status(const VehicleStatus& status) {
   if (status.header.name.sender_epoch_us != bus_.epoch_us()) other_received_ = bus_.clock().now();
+}
+
+void MavlinkNode::on_heartbeat(const tern::Heartbeat& heartbeat) {
+  if (heartbeat.process != "tern-executor" || heartbeat.state != ProcessState::Failed) return;
+  bridge_.land("tern-executor has given the vehicle up: " + heartbeat.waiting_for);
+}
+
+bool MavlinkNode::end(UTime now) {
+  if (other_received_ && now - *other_received_ < kOtherSilence) return true;
+  if (asked_to_end_) {
+    if (now - *asked_to_end_ > kSameSignal) end_armed("asked to end again");
+    return false;
+  }
+  asked_to_end_ = now;
+  bridge_.land("asked to end");
+  next_report_ = now + kReportPeriod;
+  if (is_needed()) spdlog::warn("asked to end: goes on until the vehicle is disarmed, unless asked again");
+  return false;
+}
+
+void MavlinkNode::finish_if_disarmed(UTime now) {
+  const bool is_known = bridge_.autopilot().address() || now - begun_ > kFirstHeartbeat;
+  if (exit_code_ || !is_known) return;
+  if (!is_needed()) {
+    if (bridge_.stage() == Stage::Landed) spdlog::info("the autopilot has landed");
+    return finish(0);
+  }
+  const Duration silence = now - bridge_.autopilot().last_received();
+  if (silence > kLinkPatience) return end_armed(fmt::format("no message for {:.0f} s", silence.seconds()));
+  if (now < next_report_) return;
+  next_report_ = now + kReportPeriod;
+  spdlog::warn("still {}: {}", bridge_.autopilot().armed() ? "armed" : "engaging", bridge_.status(now).why_not);
+}
+
+void MavlinkNode::finish(int code) {
+  exit_code_ = code;
+  next_status_ = bus_.clock().now();
+  publish(next_status_);
+}
+
+void MavlinkNode::end_armed(const std::string& why) {
+  if (!is_needed()) return finish(0);
+  finish(kExitArmed);
+  spdlog::critical("{}: ENDS WHILE THE VEHICLE IS ARMED in {} ({}); its pilot or its failsafe has it now", why,
+                   bridge_.autopilot().mode(), to_string(bridge_.stage()));
 }
 
 bool MavlinkNode::alone(UTime now) const {
@@ -114,6 +163,7 @@ void MavlinkNode::step(UTime now) {
   if (!alone(now)) return;
   exchange(now);
   publish(now);
+  if (asked_to_end_) finish_if_disarmed(now);
 }
 
 NodeHealth MavlinkNode::health() const {

@@ -20,10 +20,15 @@ namespace tern::mavlink {
 /// - FLIGHT_RESULT makes it land.
 /// - `start: arm` arms only before the first GOAL: a bridge that is restarted during or after a flight waits.
 /// - While another process publishes VEHICLE_STATUS, it publishes and sends nothing: one of two bridges flies.
-/// - If it ends while it flies, it has the autopilot land, and waits up to kLandPatience for that.
+/// - A tern-executor in state Failed has given the vehicle up: the autopilot lands it.
+/// - Asked to end, it has the autopilot land what it flies, and goes on until the vehicle is disarmed, whoever flies: a
+///   pilot may need the external vision. It gives up when the link is silent for kLinkPatience, or when it is asked
+///   again after kSameSignal. It then says that the vehicle is armed, and ends with kExitArmed.
+/// - If an error ends it while it flies, it has the autopilot land, and waits up to kLandPatience for that.
 class MavlinkNode final : public Node {
  public:
-  static constexpr Duration kLandPatience{30'000'000};
+  static constexpr Duration kLandPatience{30'000'000}, kLinkPatience{10'000'000}, kSameSignal{1'000'000};
+  static constexpr int kExitArmed = 5;  ///< docs/reference/exit_codes.md
   MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& uav, const BridgeConfig& config,
               std::optional<SigningKey> key);
   ~MavlinkNode() override;
@@ -31,10 +36,18 @@ class MavlinkNode final : public Node {
   [[nodiscard]] UTime next_wakeup() const override { return next_; }
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
+  [[nodiscard]] bool end(UTime now) override;
+  [[nodiscard]] std::optional<int> finished() const override { return exit_code_; }
 
  private:
   void on_goal(const Goal& goal);
   void on_status(const VehicleStatus& status);
+  void on_heartbeat(const tern::Heartbeat& heartbeat);
+  /// Whether the vehicle needs this bridge: it flies, or the vehicle is armed.
+  [[nodiscard]] bool is_needed() const { return bridge_.flies() || bridge_.autopilot().armed(); }
+  void finish_if_disarmed(UTime now);
+  void finish(int code);
+  void end_armed(const std::string& why);
   void exchange(UTime now);
   void publish(UTime now);
   void log_lines();
@@ -48,6 +61,9 @@ class MavlinkNode final : public Node {
   UTime begun_, next_, next_status_;
   UTime received_;  ///< receive time of the newest bytes, at most now
   std::optional<UTime> other_received_;
+  std::optional<UTime> asked_to_end_;
+  UTime next_report_;  ///< while it is asked to end
+  std::optional<int> exit_code_;
   std::optional<std::int64_t> goal_id_;
   UTime published_state_, published_truth_;
   bool followed_ = false;

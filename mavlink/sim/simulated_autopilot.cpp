@@ -15,6 +15,7 @@ constexpr std::uint8_t kRejected = 1, kDenied = 2, kUnsupported = 3;
 constexpr std::uint8_t kInt32 = 6, kReal32 = 9;
 constexpr std::uint8_t kGroundStation = 6;
 constexpr Duration kOldTarget{500'000}, kStreamFirst{500'000}, kDisarmAfter{1'000'000};
+constexpr Duration kTextsFor{2'500'000};
 /// COM_SPOOLUP_TIME, MPC_TKO_RAMP_T, COM_DISARM_PRFLT, COM_DL_LOSS_T.
 constexpr Duration kSpoolUp{1'000'000}, kRamp{3'000'000}, kTakeOffPatience{10'000'000}, kLinkLoss{10'000'000};
 /// Share of its speed at the beginning of the ramp.
@@ -46,6 +47,7 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
       model_(bare(config), config.wind, config.estimator, seed, Vec3::Zero(), 0.0, now),
       started_(now),
       last_step_(now),
+      now_(now),
       parameters_{{"COM_OBL_RC_ACT", 0.0},   {"COM_OF_LOSS_T", 1.0},     {"MPC_XY_VEL_D_ACC", config.velocity_d},
                   {"COM_RC_IN_MODE", 3.0},   {"COM_RCL_EXCEPT", 0.0},    {"NAV_DLL_ACT", 2.0},
                   {"MPC_XY_VEL_MAX", 12.0},  {"MPC_Z_VEL_MAX_UP", 3.0},  {"MPC_Z_VEL_MAX_DN", 1.5},
@@ -64,6 +66,8 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
 /// Sends a text as PX4 does: with a tab at its end, and in chunks if it is longer than a message.
 void SimulatedAutopilot::send_warning(const std::string& words) {
   constexpr std::size_t kChunk = 50;
+  const bool is_heard = linked_ground_station_received_ && now_ - *linked_ground_station_received_ <= kTextsFor;
+  if (!is_ardupilot() && !is_heard) return;
   const std::string text = words + "\t";
   ++text_id_;
   for (std::size_t at = 0; at < text.size(); at += kChunk) {
@@ -262,11 +266,15 @@ void SimulatedAutopilot::send_parameter(const std::string& name) {
                   .param_type = integer ? kInt32 : kReal32});
 }
 
-void SimulatedAutopilot::receive(const Frame& frame, UTime now) {
+void SimulatedAutopilot::receive(const Frame& frame, UTime now, bool on_its_link) {
+  now_ = now;
   const auto mine = [](std::uint8_t system, std::uint8_t component) {
     return system == kSelf.system && (component == 0 || component == kSelf.component);
   };
-  if (const auto m = from_frame<Heartbeat>(frame); m && m->type == kGroundStation) ground_station_received_ = now;
+  if (const auto m = from_frame<Heartbeat>(frame); m && m->type == kGroundStation) {
+    ground_station_received_ = now;
+    if (on_its_link) linked_ground_station_received_ = now;
+  }
   if (const auto m = from_frame<CommandLong>(frame); m && mine(m->target_system, m->target_component)) {
     receive_command(*m, frame.from, now);
   }
@@ -352,6 +360,7 @@ void SimulatedAutopilot::fly(UTime now) {
 }
 
 void SimulatedAutopilot::step(UTime now) {
+  now_ = now;
   if (jumps_back_ && now >= *jumps_back_) {
     jumps_back_.reset();
     jump_up(-jumped_up_);

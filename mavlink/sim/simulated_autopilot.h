@@ -63,6 +63,7 @@ struct SimulatedAutopilotConfig {
 ///
 /// Further rules:
 /// - Disarmed, it accepts any mode.
+/// - PX4 sends STATUSTEXT only while a HEARTBEAT of type ground station was received on its link within 2.5 s.
 /// - PX4 refuses to arm while NAV_DLL_ACT requires a ground station and none sends HEARTBEAT.
 /// - With EKF2_GPS_CTRL 0 it has a position only while EKF2_EV_CTRL is 15 and ODOMETRY arrives. It reports the model's
 ///   position and velocity in any case.
@@ -79,7 +80,8 @@ class SimulatedAutopilot {
  public:
   SimulatedAutopilot(const SimulatedAutopilotConfig& config, std::uint64_t seed, UTime now);
 
-  void receive(const Frame& frame, UTime now);
+  /// @param on_its_link  false: over a link of its own, as of a ground station
+  void receive(const Frame& frame, UTime now, bool on_its_link = true);
   void step(UTime now);
   std::vector<Frame> take_frames() { return std::exchange(out_, {}); }
   [[nodiscard]] const QuadrotorModel& model() const { return model_; }
@@ -146,7 +148,7 @@ class SimulatedAutopilot {
   UavState command_;
   UavState target_;  ///< newest setpoint, local ENU
   std::optional<UTime> streaming_since_, last_target_, landed_since_, ramp_since_;
-  std::optional<UTime> ground_station_received_, vision_received_;
+  std::optional<UTime> ground_station_received_, linked_ground_station_received_, vision_received_;
   std::optional<UTime> jumps_back_;  ///< the estimate's jump after a gap of the vision ends
   double jumped_up_ = 0.0;           ///< by that, m
   UTime armed_since_;
@@ -154,7 +156,7 @@ class SimulatedAutopilot {
   std::optional<double> takes_off_to_;  ///< in the estimate's frame, m
   bool guided_ = false;                 ///< setpoints were received since GUIDED began
   double ramp_ = 1.0;                   ///< share of its speed during take-off
-  UTime last_step_;
+  UTime last_step_, now_;
   double battery_ = 0.9;
   std::map<std::string, double> parameters_;
   std::map<std::uint32_t, Stream> streams_;

@@ -114,7 +114,7 @@ TEST(Bridge, FliesWithThemWhenToldTo) {
 }
 
 TEST(Bridge, SaysWhyItIsNotArmed) {
-  FlightInMemory flight;
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true, .without_remote = true});
   flight.set_parameter("SIM_ARM_REFUSE", 1.0F);
   flight.run(12.0);
   EXPECT_FALSE(flight.autopilot.armed());
@@ -194,6 +194,54 @@ TEST(Bridge, LandsWithALowBattery) {
   flight.set_parameter("SIM_BAT_PCT", 10.0F);
   EXPECT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; }));
   EXPECT_THAT(flight.words, Contains(HasSubstr("battery 10 %")));
+}
+
+TEST(Bridge, LandsWhereItIsAndSendsNoSetpointElsewhere) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.path = along;
+  flight.run(5.0);
+  flight.sent = [&](const Frame& frame) {
+    const auto target = from_frame<SetPositionTargetLocalNed>(frame);
+    if (!target) return;
+    ASSERT_LT((enu_of(target->p) - flight.autopilot.model().truth().motion.p).norm(), 1.0);
+  };
+  flight.set_parameter("SIM_BAT_PCT", 10.0F);
+  EXPECT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; }));
+}
+
+TEST(Bridge, HandsBackToTheAutopilotsLandingBeyondTheLastBound) {
+  for (const bool leads : {true, false}) {
+    UavSpec boxed = FlightInMemory::uav();
+    boxed.flight_box = {Vec3(-5, -5, 0), Vec3(5, 5, 5)};
+    FlightInMemory flight;
+    flight.bridge = Bridge(flight.config, boxed, flight.now);
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+    double farthest = 0.0;
+    flight.sent = [&](const Frame& frame) {
+      const auto target = from_frame<SetPositionTargetLocalNed>(frame);
+      if (target) farthest = std::max(farthest, enu_of(target->p).x());
+    };
+    if (leads) flight.path = along;
+    if (!leads) flight.shifts.x() = 20.0;
+    ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; })) << leads;
+    EXPECT_THAT(flight.words, Contains(HasSubstr("more than 4 m outside uav.flight_box")));
+    if (!leads) continue;
+    EXPECT_LT(farthest, 5.0 + Bridge::kLastBound + 1.0) << "and the way to stop";
+  }
+}
+
+TEST(Bridge, SaysForHowLongItHasNotFollowedAndWhatItDoesNotLand) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.ground_station(switch_to(3));
+  flight.run(5.3);
+  EXPECT_EQ(flight.bridge.status(flight.now).why_not,
+            "stood back: the autopilot has changed to POSCTL: another pilot flies (for 5 s)");
+  flight.bridge.land("the flight has ended");
+  flight.run(0.1);
+  EXPECT_THAT(flight.words,
+              Contains(HasSubstr("the flight has ended: not landed, since the autopilot has changed to")));
 }
 
 TEST(Bridge, DoesNotTakeOffWithALowBattery) {

@@ -68,7 +68,7 @@ class FlightInMemory {
     for (; now < end; now = now + Duration{2'000}) {
       deliver();
       if (ground_station_there && beats % 500 == 0)
-        autopilot.receive(to_frame(Heartbeat{.type = 6}, {255, 190}, 0), now);
+        autopilot.receive(to_frame(Heartbeat{.type = 6}, {255, 190}, 0), now, false);
       if (beats++ % 5 == 0) say_setpoint();
       if (bridge_runs) bridge.step(now);
       autopilot.step(now);
@@ -93,7 +93,7 @@ class FlightInMemory {
   /// Sends a command as a ground station: any system may command.
   void ground_station(CommandLong command) {
     command.target_system = 1;
-    autopilot.receive(to_frame(command, {255, 190}, 0), now);
+    autopilot.receive(to_frame(command, {255, 190}, 0), now, false);
   }
   void set_parameter(const std::string& name, float value) {
     autopilot.receive(

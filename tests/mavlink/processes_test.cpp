@@ -279,6 +279,7 @@ TEST_F(MavlinkProcesses, AKilledBridgeComesBackWithTheTruthThatItTold) {
   const std::vector<std::string> sees{"--set", "mavlink.external_vision=true"};
   start_bridge(sees);
   ASSERT_TRUE(until_following()) << status.why_not;
+  set_parameter("SIM_EV_JUMP", 0.0F);
   bridge->signal(SIGKILL);
   EXPECT_EQ(bridge->wait(), -SIGKILL);
   truth.reset();

@@ -38,6 +38,8 @@ TEST(Px4Manners, TheBridgeDoesNotWakeAVehicleFromItsFailsafe) {
     ASSERT_EQ(flight.autopilot.mode(), "AUTO.LAND");
     flight.cut = false;
     flight.each = [&] { ASSERT_TRUE(flight.autopilot.mode() == "AUTO.LAND" || !flight.autopilot.armed()); };
+    ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; })) << seconds;
+    EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("autopilot failsafe: it is in AUTO.LAND"));
     ASSERT_TRUE(flight.run_until([&] { return !flight.autopilot.armed(); })) << seconds;
     EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
   }
@@ -102,13 +104,57 @@ TEST(Px4Manners, ArmingIsDeniedWithoutTheGroundStationThatIsAskedForAndTheReason
   flight.ground_station_there = false;
   flight.run(12.0);
   EXPECT_FALSE(flight.autopilot.armed());
-  EXPECT_THAT(flight.bridge.status(flight.now).why_not,
-              AllOf(HasSubstr("Arming denied: Resolve system health failures first; "
-                              "Preflight Fail: No connection to the GCS"),
-                    Not(HasSubstr("?"))));
+  EXPECT_THAT(
+      flight.bridge.status(flight.now).why_not,
+      HasSubstr("arming temporarily rejected: a PX4 gives the reason to ground stations alone, and NAV_DLL_ACT, "
+                "which is not 0"));
   FlightInMemory alone({.start = Start::Arm, .set_parameters = true, .without_remote = true});
   alone.ground_station_there = false;
   EXPECT_TRUE(alone.run_until([&] { return alone.following(); })) << alone.bridge.status(alone.now).why_not;
+}
+
+TEST(Px4Manners, TheReasonWhyArmingIsDeniedIsToldThoughNoGroundStationIsThere) {
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true, .without_remote = true});
+  flight.ground_station_there = false;
+  flight.set_parameter("SIM_ARM_REFUSE", 1.0F);
+  flight.run(12.0);
+  EXPECT_FALSE(flight.autopilot.armed());
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not,
+              AllOf(HasSubstr("Arming denied: Resolve system health failures first; "
+                              "Preflight Fail: Accel 0 uncalibrated"),
+                    Not(HasSubstr("?"))));
+}
+
+TEST(Px4Manners, TheBridgeIsAGroundStationOnlyIfTheLossOfOneHasNoEffect) {
+  for (const Manners manners : {Manners::Px4, Manners::ArduPilot}) {
+    for (const bool alone : {true, false}) {
+      SimulatedAutopilotConfig autopilot;
+      autopilot.manners = manners;
+      FlightInMemory flight({.start = Start::Arm, .set_parameters = true, .without_remote = alone}, autopilot);
+      int beats = 0;
+      flight.sent = [&](const Frame& frame) {
+        const auto heartbeat = from_frame<Heartbeat>(frame);
+        if (!heartbeat || heartbeat->type != 6) return;
+        ++beats;
+        EXPECT_EQ(frame.from.component, kGroundStationComponent);
+      };
+      ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+      beats = 0;
+      flight.run(5.0);
+      EXPECT_EQ(beats, alone && manners == Manners::Px4 ? 10 : 0) << "in flight as well: it must not end";
+    }
+  }
+}
+
+TEST(Px4Manners, WithoutAPilotALandingThatNobodyAskedForIsItsFailsafe) {
+  for (const bool alone : {true, false}) {
+    FlightInMemory flight({.start = Start::Arm, .set_parameters = true, .without_remote = alone});
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+    flight.ground_station({.command = kNavLand});
+    ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; }));
+    EXPECT_THAT(flight.bridge.status(flight.now).why_not,
+                HasSubstr(alone ? "autopilot failsafe: it is in AUTO.LAND" : "a pilot's command, or its failsafe"));
+  }
 }
 
 TEST(Px4Manners, TheClimbWaitsForRotorsThatSpinUp) {
