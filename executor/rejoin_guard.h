@@ -23,7 +23,7 @@ namespace tern {
 /// | off the trajectory, sum of shifts up to kMaxShift                | allowed; the sum decays by kForgiven        |
 /// | off the trajectory, sum above kMaxShift                          | refused                                     |
 ///
-/// A reset that the estimator announces counts in the same sum: the tube grows by it, so that it needs no rejoin, and
+/// A reset that the estimator announces counts in the same sum. The tube grows by the reset, so it needs no rejoin, but
 /// the vehicle is led away all the same. A rejoin within kSameShift of a reset is taken for the same shift.
 ///
 /// After a refusal of check_rejoin() or check_reset() the vehicle must not be commanded any further.

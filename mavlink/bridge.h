@@ -71,8 +71,10 @@ const char* to_string(Stage stage);
 /// sends no setpoint in Waiting, so the first one is at the present estimate. The first SETPOINT is its command at
 /// once. SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
 /// vehicle is commanded to stop, with a dead estimate at the place of the last setpoint, and VEHICLE_STATUS reports
-/// *not following*. So it does while the estimate is apart from external vision (VisionCheck): there the vehicle is
-/// commanded to stay where the autopilot estimates it at each moment, since any other setpoint would move it.
+/// *not following*.
+///
+/// While the estimate is apart from external vision (VisionCheck), the vehicle is commanded to stay where the autopilot
+/// estimates it at each moment. Any other setpoint would move it.
 ///
 /// **Setpoints.** SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz, with p and v of the command, the yaw, and
 /// acceleration_gain·a(now + lead_s) + drag_per_s·v. The gain applies to the level axes: the vertical loop of an

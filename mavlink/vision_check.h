@@ -18,7 +18,7 @@ namespace tern::mavlink {
 /// | within the bound, level and vertically                       | none                                          |
 /// | beyond it for kApartFor                                      | the distances, and for how long               |
 /// | beyond it, and the estimator was reset since it was within   | the same, at once                             |
-/// | no vision within kPairing of the estimate's time             | as before                                     |
+/// | no vision within kPairing of the estimate's time             | that of the newest comparison                 |
 ///
 /// Positions are in the autopilot's local frame as ENU, m.
 class VisionCheck {

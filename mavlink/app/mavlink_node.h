@@ -21,8 +21,8 @@ namespace tern::mavlink {
 /// - `start: arm` arms only before the first GOAL: a bridge that is restarted during or after a flight waits.
 /// - While another process publishes VEHICLE_STATUS, it publishes and sends nothing: one of two bridges flies.
 /// - A tern-executor in state Failed has given the vehicle up: the autopilot lands it.
-/// - Asked to end, it has the autopilot land what it flies, and goes on until the vehicle is disarmed, whoever flies: a
-///   pilot may need the external vision. It gives up when the link is silent for kLinkPatience, or when it is asked
+/// - Asked to end, it has the autopilot land what it flies, and goes on until the vehicle is disarmed. So a pilot who
+///   flies keeps the external vision. It gives up when the link is silent for kLinkPatience, or when it is asked
 ///   again after kSameSignal. It then says that the vehicle is armed, and ends with kExitArmed.
 /// - If an error ends it while it flies, it has the autopilot land, and waits up to kLandPatience for that.
 class MavlinkNode final : public Node {

@@ -67,9 +67,8 @@ struct SimulatedAutopilotConfig {
 /// - PX4 refuses to arm while NAV_DLL_ACT requires a ground station and none sends HEARTBEAT.
 /// - With EKF2_GPS_CTRL 0 it has a position only while EKF2_EV_CTRL is 15 and ODOMETRY arrives. It reports the model's
 ///   position and velocity in any case.
-/// - If such a vehicle is armed and ODOMETRY comes back after more than 0.4 s, the estimate jumps up by SIM_EV_JUMP
-/// (8.3
-///   m, as measured), and back after 5 s. Setpoints stay where they were sent; own modes move along.
+/// - If ODOMETRY comes back after more than 0.4 s, the estimate of such a vehicle jumps up by SIM_EV_JUMP, and back
+///   after 5 s. The default is 8.3 m, as measured. Setpoints stay where they were sent; own modes move along.
 /// - Any system may command it, with the right target. Requests for unknown parameters get no answer.
 /// - The velocity loop has the D term MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
 /// - ArduPilot's home is where it was armed, shifted up by SIM_HOME_UP.
