@@ -160,7 +160,9 @@ TEST(Tracked, HasTheDetectionsOfAllSensorsAndTheMovingTracksWithAlphaAndAge) {
   EXPECT_EQ(tracked_json(scene, memory.ages), "null");
   const support::KnownScene known(kStart);
   scene.receive(known.predictions(kStart));
-  scene.receive(known.predictions(at(0.5)));
+  TrackSet late = known.predictions(at(0.5));
+  for (Track& track : late.tracks) track.motion.start = at(0.55);  ///< the sensor's latency
+  scene.receive(late);
   for (const auto& [sensor, seconds] : {std::pair(1, 0.5), std::pair(2, 0.4), std::pair(3, -1.0)}) {
     ObservationSet seen;
     seen.sensor_id = sensor;

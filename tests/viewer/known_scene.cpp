@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/digest.h"
+
 namespace tern::support {
 namespace {
 
@@ -135,6 +137,7 @@ ConfigurationReport KnownScene::configuration() const {
   report.yaml = "world:\n  obstacles:\n";
   for (int k = 0; k < 10; ++k) report.yaml += "    -\n      name: \"\"\n";
   report.yaml += "    -\n      name: gate\n";
+  report.hash = digest(report.yaml);
   return report;
 }
 

@@ -56,7 +56,12 @@ std::string tracked_json(const Scene& scene, const TrackAges& ages) {
   column("p", [&](const Track& t) { json.point(t.motion.sample(at).p); });
   column("v", [&](const Track& t) { json.point(t.motion.sample(at).v); });
   column("h", [&](const Track& t) { json.point(t.half_extents); });
-  column("alpha", [&](const Track& t) { json.point(0.5 * t.bounds(at, at).sizes() - t.half_extents); });
+  // A prediction begins later than its newest input, by the sensor's latency. Before its first piece the box only
+  // grows.
+  column("alpha", [&](const Track& t) {
+    const UTime begin = std::max(at, t.motion.start);
+    json.point(0.5 * t.bounds(begin, begin).sizes() - t.half_extents);
+  });
   return json.end_object().end_object().take();
 }
 

@@ -12,7 +12,7 @@ export const LAYERS = [
   { name: 'minvo', on: true, says: 'simplices around the plan', colors: [palette.plan] },
   { name: 'committed', on: true, says: 'the trajectory in force', colors: [palette.committed] },
   { name: 'sphere', on: true, says: 'S, in which the local goal lies', colors: [palette.sphere] },
-  { name: 'hulls', on: false, says: 'where moving obstacles may be during the first second of the plan, soon and later', colors: [palette.hull, palette.hullLater] },
+  { name: 'hulls', on: false, says: 'where moving obstacles may be during the first second of the plan', colors: [palette.hull] },
   { name: 'tracks', on: false, says: 'detections; predicted obstacles with α, by id and age', colors: [palette.detection, palette.track] },
   { name: 'planes', on: false, says: 'of the certificate, where bounding boxes do not separate plan and obstacle', colors: [palette.plane] },
   { name: 'search', on: false, says: 'tree of the last search', colors: [palette.search] },

@@ -5,11 +5,9 @@ import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const PATCH = 0.9; // half the side of a drawn plane, m
-const CREASE = 0.999; // cosine of the smallest angle between two faces whose common edge is drawn
-const SOON = new THREE.Color(palette.hull);
-const LATER = new THREE.Color(palette.hullLater);
+const CREASE = Math.cos(0.35); // edges between two faces at a smaller angle, rad, are not drawn
 
-/** Appends the edges of a convex hull to `out`, two points each; not those between triangles of one face. */
+/** Appends the edges of a convex hull to `out`, two points each; not those between triangles of one face or of a curved one. */
 export function outline(points, out) {
   const hull = new ConvexHull().setFromPoints(points);
   for (const face of hull.faces) {
@@ -32,7 +30,7 @@ export class Proofs {
   constructor(scene) {
     // Outlines: many translucent faces, seen from within, would be fog.
     this.hulls = new THREE.LineSegments(
-      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.7, depthWrite: false }));
+      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: palette.hull, transparent: true, opacity: 0.6, depthWrite: false }));
     this.planes = new THREE.Group();
     this.patches = new THREE.Mesh(new THREE.BufferGeometry(), translucent(palette.plane, 0.18));
     this.frames = new THREE.LineSegments(
@@ -50,30 +48,24 @@ export class Proofs {
     for (const mesh of [this.hulls, this.patches, this.frames, this.nodes]) this.fill(mesh, []);
   }
 
-  fill(mesh, positions, colors = null) {
+  fill(mesh, positions) {
     mesh.geometry.dispose();
     mesh.geometry = new THREE.BufferGeometry();
     mesh.geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
-    if (colors) mesh.geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 3));
   }
 
-  /** @param message  {hulls: [{track, interval, points}]}; points flat; null: none */
+  /** Draws an outline per track, around its hulls. @param message  {hulls: [{track, interval, points}]}; points flat; null: none */
   takeHulls(message) {
-    const positions = [];
-    const colors = [];
-    const color = new THREE.Color();
-    const last = (message?.hulls ?? []).reduce((most, { interval }) => Math.max(most, interval), 1);
-    for (const hull of message?.hulls ?? []) {
-      const points = [];
-      numbers(hull.points, 3);
-      for (let k = 0; k < hull.points.length; k += 3) points.push(new THREE.Vector3().fromArray(hull.points, k));
-      if (points.length < 4) continue;
-      outline(points, positions);
-      color.copy(SOON).lerp(LATER, hull.interval / last);
-      while (colors.length < positions.length) colors.push(color.r, color.g, color.b);
+    const byTrack = new Map();
+    for (const { track, points } of message?.hulls ?? []) {
+      numbers(points, 3);
+      if (!byTrack.has(track)) byTrack.set(track, []);
+      for (let k = 0; k < points.length; k += 3) byTrack.get(track).push(new THREE.Vector3().fromArray(points, k));
     }
-    this.counts.hulls = message?.hulls?.length ?? 0;
-    this.fill(this.hulls, positions, colors);
+    const positions = [];
+    for (const points of byTrack.values()) if (points.length >= 4) outline(points, positions);
+    this.counts.hulls = byTrack.size;
+    this.fill(this.hulls, positions);
   }
 
   /**

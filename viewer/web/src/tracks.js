@@ -5,7 +5,7 @@ import { palette } from './palette.js';
 import { placeInWindow } from './tags.js';
 
 const LEAST_HALF = 0.05; // m: a detection without an extent is drawn this large
-const MOST_TAGS = 24; // of the tracks nearest to the vehicle
+const MOST_TAGS = 12; // of the tracks nearest to the vehicle
 const LONGEST_GUESS_S = 0.25; // positions are extrapolated by velocity for at most this long
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1]);
 const EDGES = [0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6, 3, 7];
@@ -83,7 +83,7 @@ export class Tracks {
       const at = row(p, k).map((x, axis) => x + dt * v[3 * k + axis]);
       const half = row(h, k).map((x, axis) => x + alpha[3 * k + axis]);
       boxEdges(at, half, positions);
-      const place = placeInWindow([at[0], at[1], at[2] + half[2]], camera, window);
+      const place = placeInWindow(at, camera, window);
       const away = Math.hypot(at[0] - this.vehicle.x, at[1] - this.vehicle.y, at[2] - this.vehicle.z);
       if (place) tags.push({ ...place, away, text: trackInWords(this.tracks, k) });
     }
