@@ -19,12 +19,12 @@ struct wire::Form<ConfigurationReport> {
   };
 
   static void fields(auto& io, auto& m, auto& report) {
-    io.header(m.header, report.header);
-    io.any(m.hash, report.hash);
-    io.text(m.process, report.process);
-    io.text(m.build_id, report.build_id);
-    io.text(m.platform, report.platform);
-    io.text(m.yaml, report.yaml);
+    io.header("header", m.header, report.header);
+    io.any("hash", m.hash, report.hash);
+    io.text("process", m.process, report.process);
+    io.text("build_id", m.build_id, report.build_id);
+    io.text("platform", m.platform, report.platform);
+    io.text("yaml", m.yaml, report.yaml);
   }
 
   static void read_rest(FieldReader& read, const Message&, ConfigurationReport& report) {
@@ -34,5 +34,6 @@ struct wire::Form<ConfigurationReport> {
 
 template Bytes encode(const ConfigurationReport& value);
 template tl::expected<ConfigurationReport, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<ConfigurationReport>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

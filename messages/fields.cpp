@@ -1,5 +1,7 @@
 #include "messages/fields.h"
 
+#include <fmt/format.h>
+
 namespace tern::wire {
 namespace {
 
@@ -73,54 +75,83 @@ bool is_plain_text(std::string_view text) {
   return true;
 }
 
-double FieldReader::number(double x, double low, double high) {
-  return note(low <= x && x <= high, Rejection::Number) ? x : low;
+double FieldReader::number(double x, double low, double high, const char* part) {
+  return note(low <= x && x <= high, Rejection::Number, x, part) ? x : low;
 }
 
 Vec3 FieldReader::vec3(const tern_msgs::vec3_t& v, double low, double high) {
-  return {number(v.x, low, high), number(v.y, low, high), number(v.z, low, high)};
+  return {number(v.x, low, high, ".x"), number(v.y, low, high, ".y"), number(v.z, low, high, ".z")};
 }
 
-void FieldReader::points(const std::vector<tern_msgs::vec3_t>& list, Points& x, double limit) {
+void FieldReader::points(const char* name, const std::vector<tern_msgs::vec3_t>& list, Points& x, double limit) {
   x.resize(3, static_cast<Eigen::Index>(list.size()));
-  for (std::size_t i = 0; i < list.size(); ++i) x.col(static_cast<Eigen::Index>(i)) = vec3(list[i], -limit, limit);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    enter(name, i);
+    x.col(static_cast<Eigen::Index>(i)) = vec3(list[i], -limit, limit);
+  }
+  leave();
 }
 
-void FieldReader::motion(const tern_msgs::motion_t& m, MotionSample& x) {
-  x = {position(m.position), vec3(m.velocity, -kMaxSpeed, kMaxSpeed),
-       vec3(m.acceleration, -kMaxAcceleration, kMaxAcceleration), vec3(m.jerk, -kMaxJerk, kMaxJerk)};
+void FieldReader::motion(const char* name, const tern_msgs::motion_t& m, MotionSample& x) {
+  enter(name, kNoIndex);
+  position("position", m.position, x.p);
+  vec3("velocity", m.velocity, x.v, -kMaxSpeed, kMaxSpeed);
+  vec3("acceleration", m.acceleration, x.a, -kMaxAcceleration, kMaxAcceleration);
+  vec3("jerk", m.jerk, x.j, -kMaxJerk, kMaxJerk);
+  leave();
 }
 
-void FieldReader::time(std::int64_t us, UTime& x) {
-  x = note(-kMaxTimeUs <= us && us <= kMaxTimeUs, Rejection::Time) ? UTime{us} : UTime{};
+void FieldReader::time(const char* name, std::int64_t us, UTime& x) {
+  x = named(name).note(-kMaxTimeUs <= us && us <= kMaxTimeUs, Rejection::Time, us) ? UTime{us} : UTime{};
 }
 
 Duration FieldReader::duration(std::int64_t us, Duration low, Duration high) {
-  return note(low.us <= us && us <= high.us, Rejection::Time) ? Duration{us} : low;
+  return note(low.us <= us && us <= high.us, Rejection::Time, us) ? Duration{us} : low;
 }
 
 std::string FieldReader::text(std::span<const std::uint8_t> bytes) {
   std::string result(bytes.begin(), bytes.end());
-  note(is_plain_text(result), Rejection::Number);
+  note(is_plain_text(result), Rejection::Number, "a text has bytes that are not plain UTF-8");
   return result;
 }
 
-void FieldReader::name(const tern_msgs::message_name_t& m, MessageName& x) {
-  note(0 <= m.sender_epoch_us && m.sender_epoch_us <= kMaxTimeUs, Rejection::Time);
-  x = {m.sender_epoch_us, counter(m.sequence)};
+void FieldReader::name(const char* name, const tern_msgs::message_name_t& m, MessageName& x) {
+  named(name).note(0 <= m.sender_epoch_us && m.sender_epoch_us <= kMaxTimeUs, Rejection::Time, m.sender_epoch_us,
+                   ".sender_epoch_us");
+  note(m.sequence >= 0, Rejection::Number, m.sequence, ".sequence");
+  x = {m.sender_epoch_us, std::max<std::int64_t>(m.sequence, 0)};
 }
 
-void FieldReader::header(const tern_msgs::header_t& m, Header& x) {
-  note(m.name.sequence >= 1, Rejection::Number);
-  name(m.name, x.name);
-  time(m.utime_us, x.utime);
+void FieldReader::header(const char* name, const tern_msgs::header_t& m, Header& x) {
+  named(name).note(m.name.sequence >= 1, Rejection::Number, m.name.sequence, ".name.sequence");
+  this->name("header.name", m.name, x.name);
+  time("header.utime_us", m.utime_us, x.utime);
 }
 
-void FieldReader::batch(const tern_msgs::batch_t& m, BatchHeader& x) {
-  integer(m.set, x.set, 1, kMaxCounter);
-  integer(m.index, x.index, 0, kMaxBatches - 1);
-  integer(m.count, x.count, 1, kMaxBatches);
-  consistent(x.index < x.count);
+void FieldReader::batch(const char* name, const tern_msgs::batch_t& m, BatchHeader& x) {
+  enter(name, kNoIndex);
+  integer("set", m.set, x.set, 1, kMaxCounter);
+  integer("index", m.index, x.index, 0, kMaxBatches - 1);
+  integer("count", m.count, x.count, 1, kMaxBatches);
+  consistent(x.index < x.count, "batch.index is not below batch.count");
+  leave();
+}
+
+std::string FieldReader::field(const char* part) const {
+  std::string text = list_;
+  if (!text.empty() && index_ != kNoIndex) text += "[" + std::to_string(index_) + "]";
+  if (!text.empty() && *name_ != '\0') text += ".";
+  return text + name_ + part;
+}
+
+void FieldReader::describe(const char* part, double value) {
+  const std::string of = field(part);
+  refused_field_ = of.empty() ? "" : fmt::format("{} is {:g}", of, value);
+}
+
+void FieldReader::describe(const char* part, std::int64_t value) {
+  const std::string of = field(part);
+  refused_field_ = of.empty() ? "" : fmt::format("{} is {}", of, value);
 }
 
 bool all_different(std::vector<std::int64_t> values) {

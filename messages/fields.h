@@ -48,38 +48,38 @@ std::int8_t to_int8(Enum value) {
 }
 
 /// Writes fields. Its functions have the same names and arguments as those of FieldReader, so a message lists its
-/// fields once for both directions. The arguments are the field on the wire, the value and its range; the range is not
-/// checked.
+/// fields once for both directions. The arguments are the field's name, the field on the wire, the value and its range.
+/// Name and range are not used.
 class FieldWriter {
  public:
   template <class M, class T>
-  void any(M& m, T x) {
+  void any(const char*, M& m, T x) {
     m = static_cast<M>(x);
   }
-  void number(double& m, double x, double, double) { m = x; }
+  void number(const char*, double& m, double x, double, double) { m = x; }
   template <class M, class Integer>
-  void integer(M& m, Integer x, std::type_identity_t<Integer>, std::type_identity_t<Integer>) {
+  void integer(const char*, M& m, Integer x, std::type_identity_t<Integer>, std::type_identity_t<Integer>) {
     m = static_cast<M>(x);
   }
-  void counter(std::int64_t& m, std::int64_t x) { m = x; }
-  void vec3(tern_msgs::vec3_t& m, const Vec3& x, double, double) { m = to_lcm(x); }
-  void position(tern_msgs::vec3_t& m, const Vec3& x) { m = to_lcm(x); }
-  void extents(tern_msgs::vec3_t& m, const Vec3& x) { m = to_lcm(x); }
-  void points(std::vector<tern_msgs::vec3_t>& m, const Points& x, double) { m = to_lcm(x); }
-  void motion(tern_msgs::motion_t& m, const MotionSample& x) { m = to_lcm(x); }
+  void counter(const char*, std::int64_t& m, std::int64_t x) { m = x; }
+  void vec3(const char*, tern_msgs::vec3_t& m, const Vec3& x, double, double) { m = to_lcm(x); }
+  void position(const char*, tern_msgs::vec3_t& m, const Vec3& x) { m = to_lcm(x); }
+  void extents(const char*, tern_msgs::vec3_t& m, const Vec3& x) { m = to_lcm(x); }
+  void points(const char*, std::vector<tern_msgs::vec3_t>& m, const Points& x, double) { m = to_lcm(x); }
+  void motion(const char*, tern_msgs::motion_t& m, const MotionSample& x) { m = to_lcm(x); }
   template <class Enum>
-  void enumeration(std::int8_t& m, Enum x, Enum) {
+  void enumeration(const char*, std::int8_t& m, Enum x, Enum) {
     m = to_int8(x);
   }
-  void flag(std::int8_t& m, bool x) { m = to_int8(x); }
-  void time(std::int64_t& m, UTime x) { m = x.us; }
-  void duration(std::int64_t& m, Duration x, Duration, Duration) { m = x.us; }
-  void text(std::vector<std::uint8_t>& m, std::string_view x) { m.assign(x.begin(), x.end()); }
-  void name(tern_msgs::message_name_t& m, const MessageName& x) { m = to_lcm(x); }
-  void header(tern_msgs::header_t& m, const Header& x) { m = to_lcm(x); }
-  void batch(tern_msgs::batch_t& m, const BatchHeader& x) { m = to_lcm(x); }
+  void flag(const char*, std::int8_t& m, bool x) { m = to_int8(x); }
+  void time(const char*, std::int64_t& m, UTime x) { m = x.us; }
+  void duration(const char*, std::int64_t& m, Duration x, Duration, Duration) { m = x.us; }
+  void text(const char*, std::vector<std::uint8_t>& m, std::string_view x) { m.assign(x.begin(), x.end()); }
+  void name(const char*, tern_msgs::message_name_t& m, const MessageName& x) { m = to_lcm(x); }
+  void header(const char*, tern_msgs::header_t& m, const Header& x) { m = to_lcm(x); }
+  void batch(const char*, tern_msgs::batch_t& m, const BatchHeader& x) { m = to_lcm(x); }
   template <class M, class T, class Each>
-  void list(std::vector<M>& m, const std::vector<T>& values, const Each& each) {
+  void list(const char*, std::vector<M>& m, const std::vector<T>& values, const Each& each) {
     for (const T& value : values) each(m.emplace_back(), value);
   }
 };
@@ -115,64 +115,91 @@ bool is_plain_text(std::string_view text);
 /// the fields were read.
 class FieldReader {
  public:
-  /// The functions of FieldWriter. Their arguments are the field, its value and its range. `any` accepts every value;
-  /// `list` calls each(element, value).
+  /// The functions of FieldWriter. Their arguments are the field's name, the field, its value and its range. `any`
+  /// accepts every value; `list` calls each(element, value).
   template <class M, class T>
-  void any(M m, T& x) {
+  void any(const char*, M m, T& x) {
     x = static_cast<T>(m);
   }
-  void number(double m, double& x, double low, double high) { x = number(m, low, high); }
+  void number(const char* name, double m, double& x, double low, double high) { x = named(name).number(m, low, high); }
   template <class M, class Integer>
-  void integer(M m, Integer& x, std::type_identity_t<Integer> low, std::type_identity_t<Integer> high) {
+  void integer(const char* name, M m, Integer& x, std::type_identity_t<Integer> low,
+               std::type_identity_t<Integer> high) {
     static_assert(sizeof(M) <= sizeof(Integer));
-    x = integer<Integer>(static_cast<Integer>(m), low, high);
+    x = named(name).integer<Integer>(static_cast<Integer>(m), low, high);
   }
-  void counter(std::int64_t m, std::int64_t& x) { x = counter(m); }
-  void vec3(const tern_msgs::vec3_t& m, Vec3& x, double low, double high) { x = vec3(m, low, high); }
-  void position(const tern_msgs::vec3_t& m, Vec3& x) { x = position(m); }
-  void extents(const tern_msgs::vec3_t& m, Vec3& x) { x = extents(m); }
+  void counter(const char* name, std::int64_t m, std::int64_t& x) { x = named(name).counter(m); }
+  void vec3(const char* name, const tern_msgs::vec3_t& m, Vec3& x, double low, double high) {
+    x = named(name).vec3(m, low, high);
+  }
+  void position(const char* name, const tern_msgs::vec3_t& m, Vec3& x) { x = named(name).position(m); }
+  void extents(const char* name, const tern_msgs::vec3_t& m, Vec3& x) { x = named(name).extents(m); }
   /// Reads a column per point, with components in [−limit, limit].
-  void points(const std::vector<tern_msgs::vec3_t>& list, Points& x, double limit);
-  void motion(const tern_msgs::motion_t& m, MotionSample& x);
+  void points(const char* name, const std::vector<tern_msgs::vec3_t>& list, Points& x, double limit);
+  void motion(const char* name, const tern_msgs::motion_t& m, MotionSample& x);
   /// Accepts the enumerators 0 … last.
   template <class Enum>
-  void enumeration(std::int8_t m, Enum& x, Enum last) {
-    x = static_cast<Enum>(note(0 <= m && m <= to_int8(last), Rejection::Enumeration) ? m : std::int8_t{0});
+  void enumeration(const char* name, std::int8_t m, Enum& x, Enum last) {
+    const bool ok = named(name).note(0 <= m && m <= to_int8(last), Rejection::Enumeration, m);
+    x = static_cast<Enum>(ok ? m : std::int8_t{0});
   }
-  void flag(std::int8_t m, bool& x) { x = flag(m); }
-  void time(std::int64_t us, UTime& x);
-  void duration(std::int64_t m, Duration& x, Duration low, Duration high) { x = duration(m, low, high); }
-  void text(const std::vector<std::uint8_t>& m, std::string& x) { x = text(m); }
-  void name(const tern_msgs::message_name_t& m, MessageName& x);
-  void header(const tern_msgs::header_t& m, Header& x);
-  void batch(const tern_msgs::batch_t& m, BatchHeader& x);
+  void flag(const char* name, std::int8_t m, bool& x) { x = named(name).flag(m); }
+  void time(const char* name, std::int64_t us, UTime& x);
+  void duration(const char* name, std::int64_t m, Duration& x, Duration low, Duration high) {
+    x = named(name).duration(m, low, high);
+  }
+  void text(const char* name, const std::vector<std::uint8_t>& m, std::string& x) { x = named(name).text(m); }
+  void name(const char* name, const tern_msgs::message_name_t& m, MessageName& x);
+  void header(const char* name, const tern_msgs::header_t& m, Header& x);
+  void batch(const char* name, const tern_msgs::batch_t& m, BatchHeader& x);
   template <class M, class T, class Each>
-  void list(const std::vector<M>& m, std::vector<T>& values, const Each& each) {
+  void list(const char* name, const std::vector<M>& m, std::vector<T>& values, const Each& each) {
     values.resize(m.size());
-    for (std::size_t i = 0; i < m.size(); ++i) each(m[i], values[i]);
+    for (std::size_t i = 0; i < m.size(); ++i) {
+      enter(name, i);
+      each(m[i], values[i]);
+    }
+    leave();
+  }
+
+  /// The fields that are read next are those of element `index` of a list, until leave().
+  void enter(const char* list, std::size_t index) {
+    list_ = list;
+    index_ = index;
+    name_ = "";
+  }
+  void leave() { list_ = name_ = ""; }
+  /// The field that is read next.
+  FieldReader& named(const char* name) {
+    name_ = name;
+    return *this;
   }
 
   /// Accepts low ≤ x ≤ high, and refuses NaN, with the reason Number.
-  double number(double x, double low, double high);
+  double number(double x, double low, double high, const char* part = "");
   template <class Integer>
   Integer integer(Integer x, Integer low, Integer high) {
-    return note(low <= x && x <= high, Rejection::Number) ? x : low;
+    return note(low <= x && x <= high, Rejection::Number, x) ? x : low;
   }
   std::int64_t counter(std::int64_t x) { return integer<std::int64_t>(x, 0, kMaxCounter); }
   /// Accepts components in [low, high].
   Vec3 vec3(const tern_msgs::vec3_t& v, double low, double high);
   Vec3 position(const tern_msgs::vec3_t& v) { return vec3(v, -kMaxCoordinate, kMaxCoordinate); }
   Vec3 extents(const tern_msgs::vec3_t& v) { return vec3(v, 0.0, kMaxCoordinate); }
-  bool flag(std::int8_t x) { return note(x == 0 || x == 1, Rejection::Enumeration) && x == 1; }
+  bool flag(std::int8_t x) { return note(x == 0 || x == 1, Rejection::Enumeration, x) && x == 1; }
   Duration duration(std::int64_t us, Duration low, Duration high);
   /// Accepts plain text (is_plain_text()), and refuses other bytes with the reason Number.
   std::string text(std::span<const std::uint8_t> bytes);
   /// Notes whether a rule between fields holds.
-  bool in_order(bool ok) { return note(ok, Rejection::Time); }
-  bool consistent(bool ok) { return note(ok, Rejection::Inconsistent); }
+  /// @param broken  in words, if it does not
+  bool in_order(bool ok, const char* broken = "") { return note(ok, Rejection::Time, broken); }
+  bool consistent(bool ok, const char* broken = "") { return note(ok, Rejection::Inconsistent, broken); }
 
   /// True if every field so far was accepted.
   [[nodiscard]] bool ok() const { return !refused_; }
+  /// The field with the reason that accept() returns, and its value: "detections[1].position.x is nan"; or the broken
+  /// rule. Empty if nothing was refused, or a field without a name.
+  [[nodiscard]] const std::string& refused_field() const { return refused_field_; }
   /// Returns the value, or the reason for its refusal.
   template <class T>
   [[nodiscard]] tl::expected<T, Rejection> accept(T value) const {
@@ -181,12 +208,29 @@ class FieldReader {
   }
 
  private:
-  bool note(bool ok, Rejection reason) {
-    if (!ok) refused_ = std::min(reason, refused_.value_or(reason));
+  template <class Value>
+  bool note(bool ok, Rejection reason, Value value, const char* part = "") {
+    if (!ok && (!refused_ || reason < *refused_)) {
+      refused_ = reason;
+      if constexpr (std::is_same_v<Value, const char*>) {
+        refused_field_ = value;
+      } else if constexpr (std::is_floating_point_v<Value>) {
+        describe(part, static_cast<double>(value));
+      } else {
+        describe(part, static_cast<std::int64_t>(value));
+      }
+    }
     return ok;
   }
+  static constexpr std::size_t kNoIndex = std::numeric_limits<std::size_t>::max();
+  [[nodiscard]] std::string field(const char* part) const;
+  void describe(const char* part, double value);
+  void describe(const char* part, std::int64_t value);
 
   std::optional<Rejection> refused_;
+  std::string refused_field_;
+  const char *list_ = "", *name_ = "";  // of the field that is being read
+  std::size_t index_ = 0;
 };
 
 /// True if no value occurs twice.

@@ -25,9 +25,9 @@ struct wire::Form<FlightResult> {
     const auto measure = [&io](auto& field, auto& x, double low, double high) {
       std::isnan(field) ? io.any(field, x) : io.number(field, x, low, high);
     };
-    io.header(m.header, result.header);
-    io.enumeration(m.outcome, result.outcome, FlightOutcome::Failed);
-    io.text(m.detail, result.detail);
+    io.header("header", m.header, result.header);
+    io.enumeration("outcome", m.outcome, result.outcome, FlightOutcome::Failed);
+    io.text("detail", m.detail, result.detail);
     measure(m.flight_time, result.flight_time_s, 0.0, kMaxSeconds);
     measure(m.first_entry, result.first_entry_s, 0.0, kMaxSeconds);
     measure(m.path_length, result.path_length_m, 0.0, kMaxPath);
@@ -36,17 +36,17 @@ struct wire::Form<FlightResult> {
     measure(m.min_clearance, result.min_clearance_m, -kMaxClearance, kMaxClearance);
     measure(m.min_map_clearance, result.min_map_clearance_m, -kMaxClearance, kMaxClearance);
     measure(m.jerk_integral, result.jerk_integral, 0.0, kMaxNumber);
-    io.counter(m.stops, result.stops);
-    io.counter(m.limit_violations, result.limit_violations);
-    io.counter(m.contacts_moving, result.contacts_moving);
-    io.counter(m.contacts_at_rest, result.contacts_at_rest);
-    io.counter(m.obstacles, result.obstacles);
-    io.counter(m.obstacles_left_out, result.obstacles_left_out);
-    io.list(m.exposure, result.exposure, [&io](auto& e, auto& exposure) {
-      io.number(e.seconds, exposure.seconds, 0.0, kMaxSeconds);
-      io.number(e.metres, exposure.metres, 0.0, kMaxPath);
-      io.number(e.near_seconds, exposure.near_seconds, 0.0, kMaxSeconds);
-      io.number(e.near_metres, exposure.near_metres, 0.0, kMaxPath);
+    io.counter("stops", m.stops, result.stops);
+    io.counter("limit_violations", m.limit_violations, result.limit_violations);
+    io.counter("contacts_moving", m.contacts_moving, result.contacts_moving);
+    io.counter("contacts_at_rest", m.contacts_at_rest, result.contacts_at_rest);
+    io.counter("obstacles", m.obstacles, result.obstacles);
+    io.counter("obstacles_left_out", m.obstacles_left_out, result.obstacles_left_out);
+    io.list("exposure", m.exposure, result.exposure, [&io](auto& e, auto& exposure) {
+      io.number("seconds", e.seconds, exposure.seconds, 0.0, kMaxSeconds);
+      io.number("metres", e.metres, exposure.metres, 0.0, kMaxPath);
+      io.number("near_seconds", e.near_seconds, exposure.near_seconds, 0.0, kMaxSeconds);
+      io.number("near_metres", e.near_metres, exposure.near_metres, 0.0, kMaxPath);
     });
   }
 
@@ -69,5 +69,6 @@ struct wire::Form<FlightResult> {
 
 template Bytes encode(const FlightResult& value);
 template tl::expected<FlightResult, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<FlightResult>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

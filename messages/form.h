@@ -3,11 +3,13 @@
 
 #include <exception>
 #include <span>
+#include <string>
 #include <tl/expected.hpp>
 #include <utility>
 
 #include "messages/codec.h"
 #include "messages/fields.h"
+#include "messages/refused_field.h"
 #include "messages/wire.h"
 
 namespace tern::wire {
@@ -24,12 +26,22 @@ struct Form;
 
 /// Reads and checks the fields of a decoded message.
 template <class T>
-tl::expected<T, Rejection> read_fields(const typename Form<T>::Message& message) {
-  FieldReader read;
+T read_fields(FieldReader& read, const typename Form<T>::Message& message) {
   T value;
   Form<T>::fields(read, message, value);
   if constexpr (requires { Form<T>::read_rest(read, message, value); }) Form<T>::read_rest(read, message, value);
-  return read.accept(std::move(value));
+  return value;
+}
+
+/// Checks the length first, then calls the generated decoder.
+template <class T>
+tl::expected<typename Form<T>::Message, Rejection> read_message(std::span<const std::uint8_t> bytes) {
+  const auto end = message_bytes(bytes, Form<T>::kLayout);
+  if (!end) return tl::make_unexpected(end.error());
+  typename Form<T>::Message message{};
+  const auto size = static_cast<int>(*end);
+  if (message.decode(bytes.data(), 0, size) != size) return tl::make_unexpected(Rejection::Length);
+  return message;
 }
 
 }  // namespace tern::wire
@@ -46,18 +58,29 @@ Bytes encode(const T& value) {
   return wire::encode(std::move(message), Form::kLayout);
 }
 
-/// Checks the length first, then calls the generated decoder, then reads the fields.
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes) {
   try {
-    const auto end = wire::message_bytes(bytes, wire::Form<T>::kLayout);
-    if (!end) return tl::make_unexpected(end.error());
-    typename wire::Form<T>::Message message{};
-    const auto size = static_cast<int>(*end);
-    if (message.decode(bytes.data(), 0, size) != size) return tl::make_unexpected(Rejection::Length);
-    return wire::read_fields<T>(message);
+    const auto message = wire::read_message<T>(bytes);
+    if (!message) return tl::make_unexpected(message.error());
+    wire::FieldReader read;
+    T value = wire::read_fields<T>(read, *message);
+    return read.accept(std::move(value));
   } catch (const std::exception&) {  // out of memory, or a check that a value's own class repeats
     return tl::make_unexpected(Rejection::Length);
+  }
+}
+
+template <class T>
+std::string refused_field(std::span<const std::uint8_t> bytes) {
+  try {
+    const auto message = wire::read_message<T>(bytes);
+    if (!message) return "";
+    wire::FieldReader read;
+    wire::read_fields<T>(read, *message);
+    return read.refused_field();
+  } catch (const std::exception&) {  // the same
+    return "";
   }
 }
 

@@ -10,14 +10,15 @@ struct wire::Form<Goal> {
   static constexpr Layout<Message> kLayout{};
 
   static void fields(auto& io, auto& m, auto& goal) {
-    io.header(m.header, goal.header);
-    io.integer(m.id, goal.id, 1, kMaxCounter);
-    io.enumeration(m.mode, goal.mode, GoalMode::Stop);
-    io.position(m.position, goal.position);
+    io.header("header", m.header, goal.header);
+    io.integer("id", m.id, goal.id, 1, kMaxCounter);
+    io.enumeration("mode", m.mode, goal.mode, GoalMode::Stop);
+    io.position("position", m.position, goal.position);
   }
 };
 
 template Bytes encode(const Goal& value);
 template tl::expected<Goal, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<Goal>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

@@ -24,24 +24,24 @@ struct wire::Form<Heartbeat> {
   };
 
   static void fields(auto& io, auto& m, auto& heartbeat) {
-    io.header(m.header, heartbeat.header);
-    io.enumeration(m.state, heartbeat.state, ProcessState::Failed);
-    io.text(m.process, heartbeat.process);
-    io.text(m.build_id, heartbeat.build_id);
-    io.text(m.waiting_for, heartbeat.waiting_for);
-    io.list(m.echoes, heartbeat.echoes, [&io](auto& e, auto& echo) {
-      io.integer(e.sender_epoch_us, echo.sender_epoch_us, 1, kMaxTimeUs);
-      io.time(e.sent_us, echo.sent);
-      io.time(e.received_us, echo.received);
+    io.header("header", m.header, heartbeat.header);
+    io.enumeration("state", m.state, heartbeat.state, ProcessState::Failed);
+    io.text("process", m.process, heartbeat.process);
+    io.text("build_id", m.build_id, heartbeat.build_id);
+    io.text("waiting_for", m.waiting_for, heartbeat.waiting_for);
+    io.list("echoes", m.echoes, heartbeat.echoes, [&io](auto& e, auto& echo) {
+      io.integer("sender_epoch_us", e.sender_epoch_us, echo.sender_epoch_us, 1, kMaxTimeUs);
+      io.time("sent_us", e.sent_us, echo.sent);
+      io.time("received_us", e.received_us, echo.received);
     });
   }
 
   static void counter_fields(auto& io, auto& m, auto& counters) {
-    io.counter(m.sent, counters.sent);
-    io.counter(m.received, counters.received);
-    for (int i = 0; i < kRejections; ++i) io.counter(m.rejected[i], counters.rejected[i]);
-    io.counter(m.lost, counters.lost);
-    io.counter(m.late, counters.late);
+    io.counter("sent", m.sent, counters.sent);
+    io.counter("received", m.received, counters.received);
+    for (int i = 0; i < kRejections; ++i) io.counter("rejected", m.rejected[i], counters.rejected[i]);
+    io.counter("lost", m.lost, counters.lost);
+    io.counter("late", m.late, counters.late);
   }
 
   static void write_rest(Message& m, const Heartbeat& heartbeat) {
@@ -71,5 +71,6 @@ struct wire::Form<Heartbeat> {
 
 template Bytes encode(const Heartbeat& value);
 template tl::expected<Heartbeat, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<Heartbeat>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

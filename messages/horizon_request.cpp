@@ -28,22 +28,23 @@ struct wire::Form<HorizonRequest> {
   };
 
   static void fields(auto& io, auto& m, auto& request) {
-    io.header(m.header, request.header);
-    io.integer(m.id, request.id, 1, kMaxCounter);
-    io.time(m.t_s_us, request.t_s);
-    io.time(m.deadline_us, request.deadline);
-    io.time(m.committed_start_us, request.committed.start);
-    io.duration(m.committed_interval_us, request.committed.interval, kMinIntervalDuration, kMaxIntervalDuration);
-    io.points(m.control_points, request.committed.control_points, kMaxCoordinate);
-    io.motion(m.start, request.start);
-    io.vec3(m.v_max, request.limits.v_max, kMinLimit, kMaxSpeedLimit);
-    io.vec3(m.a_max, request.limits.a_max, kMinLimit, kMaxAccelerationLimit);
-    io.vec3(m.j_max, request.limits.j_max, kMinLimit, kInfinity);
-    io.number(m.body_radius, request.body.radius, 0.0, kMaxBodyExtent);
-    io.points(m.body_vertices, request.body.vertices, kMaxBodyExtent);
-    io.position(m.flight_box_min, request.flight_box.min());
-    io.position(m.flight_box_max, request.flight_box.max());
-    io.vec3(m.tube, request.tube, 0.0, kMaxBodyExtent);
+    io.header("header", m.header, request.header);
+    io.integer("id", m.id, request.id, 1, kMaxCounter);
+    io.time("t_s_us", m.t_s_us, request.t_s);
+    io.time("deadline_us", m.deadline_us, request.deadline);
+    io.time("committed_start_us", m.committed_start_us, request.committed.start);
+    io.duration("committed_interval_us", m.committed_interval_us, request.committed.interval, kMinIntervalDuration,
+                kMaxIntervalDuration);
+    io.points("control_points", m.control_points, request.committed.control_points, kMaxCoordinate);
+    io.motion("start", m.start, request.start);
+    io.vec3("v_max", m.v_max, request.limits.v_max, kMinLimit, kMaxSpeedLimit);
+    io.vec3("a_max", m.a_max, request.limits.a_max, kMinLimit, kMaxAccelerationLimit);
+    io.vec3("j_max", m.j_max, request.limits.j_max, kMinLimit, kInfinity);
+    io.number("body_radius", m.body_radius, request.body.radius, 0.0, kMaxBodyExtent);
+    io.points("body_vertices", m.body_vertices, request.body.vertices, kMaxBodyExtent);
+    io.position("flight_box_min", m.flight_box_min, request.flight_box.min());
+    io.position("flight_box_max", m.flight_box_max, request.flight_box.max());
+    io.vec3("tube", m.tube, request.tube, 0.0, kMaxBodyExtent);
   }
 
   static void dynamics_fields(auto& io, auto& m, auto& dynamics) {
@@ -80,5 +81,6 @@ struct wire::Form<HorizonRequest> {
 
 template Bytes encode(const HorizonRequest& value);
 template tl::expected<HorizonRequest, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<HorizonRequest>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

@@ -20,20 +20,20 @@ struct wire::Form<MapChunk> {
   static constexpr auto kMaxSide = static_cast<std::int32_t>(kMaxVoxels);
 
   static void fields(auto& io, auto& m, auto& chunk) {
-    io.header(m.header, chunk.header);
-    io.integer(m.version, chunk.version, 1, ~std::uint64_t{0});
-    io.position(m.origin, chunk.grid.origin);
-    io.number(m.resolution, chunk.grid.resolution, kAboveZero, kMaxResolution);
-    io.integer(m.size_x, chunk.grid.size.x(), 0, kMaxSide);
-    io.integer(m.size_y, chunk.grid.size.y(), 0, kMaxSide);
-    io.integer(m.size_z, chunk.grid.size.z(), 0, kMaxSide);
-    io.integer(m.index, chunk.index, 0, kMaxMapChunks - 1);
-    io.integer(m.count, chunk.count, 1, kMaxMapChunks);
-    io.integer(m.first_voxel, chunk.first_voxel, 0, kMaxVoxels);
-    io.list(m.runs, chunk.runs, [&io](auto& r, auto& run) {
-      io.integer(r.length, run.length, 1, kMaxSide);
-      io.enumeration(r.label, run.label, VoxelLabel::Repulsive);
-      io.any(r.class_index, run.class_index);
+    io.header("header", m.header, chunk.header);
+    io.integer("version", m.version, chunk.version, 1, ~std::uint64_t{0});
+    io.position("origin", m.origin, chunk.grid.origin);
+    io.number("resolution", m.resolution, chunk.grid.resolution, kAboveZero, kMaxResolution);
+    io.integer("size_x", m.size_x, chunk.grid.size.x(), 0, kMaxSide);
+    io.integer("size_y", m.size_y, chunk.grid.size.y(), 0, kMaxSide);
+    io.integer("size_z", m.size_z, chunk.grid.size.z(), 0, kMaxSide);
+    io.integer("index", m.index, chunk.index, 0, kMaxMapChunks - 1);
+    io.integer("count", m.count, chunk.count, 1, kMaxMapChunks);
+    io.integer("first_voxel", m.first_voxel, chunk.first_voxel, 0, kMaxVoxels);
+    io.list("runs", m.runs, chunk.runs, [&io](auto& r, auto& run) {
+      io.integer("length", r.length, run.length, 1, kMaxSide);
+      io.enumeration("label", r.label, run.label, VoxelLabel::Repulsive);
+      io.any("class_index", r.class_index, run.class_index);
     });
   }
 
@@ -73,5 +73,6 @@ struct wire::Form<MapChunk> {
 
 template Bytes encode(const MapChunk& value);
 template tl::expected<MapChunk, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<MapChunk>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

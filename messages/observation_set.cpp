@@ -13,16 +13,16 @@ struct wire::Form<ObservationSet> {
   static constexpr double kMaxVariance = kMaxCoordinate * kMaxCoordinate;  // m²
 
   static void fields(auto& io, auto& m, auto& set) {
-    io.header(m.header, set.header);
-    io.time(m.at_us, set.at);
-    io.integer(m.sensor_id, set.sensor_id, 0, std::numeric_limits<std::int32_t>::max());
-    io.number(m.range, set.range_m, 0.0, kMaxCoordinate);
-    io.position(m.sensor_position, set.sensor_position);
-    io.list(m.detections, set.detections, [&io](auto& d, auto& detection) {
-      io.position(d.position, detection.position);
-      io.extents(d.half_extents, detection.half_extents);
-      io.vec3(d.variance, detection.variance, 0.0, kMaxVariance);
-      io.integer(d.track_id, detection.track_id, kNoTrackId, kMaxCounter);
+    io.header("header", m.header, set.header);
+    io.time("at_us", m.at_us, set.at);
+    io.integer("sensor_id", m.sensor_id, set.sensor_id, 0, std::numeric_limits<std::int32_t>::max());
+    io.number("range", m.range, set.range_m, 0.0, kMaxCoordinate);
+    io.position("sensor_position", m.sensor_position, set.sensor_position);
+    io.list("detections", m.detections, set.detections, [&io](auto& d, auto& detection) {
+      io.position("position", d.position, detection.position);
+      io.extents("half_extents", d.half_extents, detection.half_extents);
+      io.vec3("variance", d.variance, detection.variance, 0.0, kMaxVariance);
+      io.integer("track_id", d.track_id, detection.track_id, kNoTrackId, kMaxCounter);
     });
   }
 
@@ -31,11 +31,12 @@ struct wire::Form<ObservationSet> {
     for (const Detection& d : set.detections) {
       if (d.track_id != kNoTrackId) ids.push_back(d.track_id);
     }
-    read.consistent(all_different(std::move(ids)));
+    read.consistent(all_different(std::move(ids)), "two detections have one track_id");
   }
 };
 
 template Bytes encode(const ObservationSet& value);
 template tl::expected<ObservationSet, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<ObservationSet>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

@@ -12,16 +12,16 @@ struct wire::Form<ObstacleTruth> {
   };
 
   static void fields(auto& io, auto& m, auto& truth) {
-    io.header(m.header, truth.header);
-    io.batch(m.batch, truth.batch);
-    io.time(m.at_us, truth.at);
-    io.integer(m.left_out, truth.left_out, 0, std::numeric_limits<std::int32_t>::max());
-    io.list(m.obstacles, truth.obstacles, [&io](auto& o, auto& obstacle) {
-      io.counter(o.id, obstacle.id);
-      io.position(o.position, obstacle.position);
-      io.vec3(o.velocity, obstacle.velocity, -kMaxSpeed, kMaxSpeed);
-      io.extents(o.half_extents, obstacle.half_extents);
-      io.flag(o.moves, obstacle.moves);
+    io.header("header", m.header, truth.header);
+    io.batch("batch", m.batch, truth.batch);
+    io.time("at_us", m.at_us, truth.at);
+    io.integer("left_out", m.left_out, truth.left_out, 0, std::numeric_limits<std::int32_t>::max());
+    io.list("obstacles", m.obstacles, truth.obstacles, [&io](auto& o, auto& obstacle) {
+      io.counter("id", o.id, obstacle.id);
+      io.position("position", o.position, obstacle.position);
+      io.vec3("velocity", o.velocity, obstacle.velocity, -kMaxSpeed, kMaxSpeed);
+      io.extents("half_extents", o.half_extents, obstacle.half_extents);
+      io.flag("moves", o.moves, obstacle.moves);
     });
   }
 
@@ -34,5 +34,6 @@ struct wire::Form<ObstacleTruth> {
 
 template Bytes encode(const ObstacleTruth& value);
 template tl::expected<ObstacleTruth, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<ObstacleTruth>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

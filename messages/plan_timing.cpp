@@ -11,28 +11,29 @@ struct wire::Form<PlanTiming> {
 
   static void fields(auto& io, auto& m, auto& timing) {
     const auto milliseconds = [&io](auto& field, auto& x) { io.number(field, x, 0.0, 1e9); };
-    io.header(m.header, timing.header);
-    io.integer(m.request_id, timing.request_id, 1, kMaxCounter);
+    io.header("header", m.header, timing.header);
+    io.integer("request_id", m.request_id, timing.request_id, 1, kMaxCounter);
     milliseconds(m.total_ms, timing.total_ms);
     milliseconds(m.first_answer_ms, timing.first_answer_ms);
     milliseconds(m.cpu_ms, timing.cpu_ms);
     for (int stage = 0; stage < kStages; ++stage) milliseconds(m.stage_ms[stage], timing.stage_ms[stage]);
-    io.counter(m.expansions, timing.expansions);
-    io.counter(m.hulls, timing.hulls);
-    io.counter(m.pairs_by_index, timing.pairs_by_index);
-    io.counter(m.pairs_by_box, timing.pairs_by_box);
-    io.counter(m.pairs_by_instant, timing.pairs_by_instant);
-    io.counter(m.pairs_by_cache, timing.pairs_by_cache);
-    io.counter(m.pairs_by_plane, timing.pairs_by_plane);
-    io.counter(m.pairs_by_lp, timing.pairs_by_lp);
-    io.counter(m.solver_calls, timing.solver_calls);
-    io.counter(m.solver_iterations, timing.solver_iterations);
-    io.counter(m.peak_rss_kb, timing.peak_rss_kb);
-    io.flag(m.from_watchdog, timing.from_watchdog);
+    io.counter("expansions", m.expansions, timing.expansions);
+    io.counter("hulls", m.hulls, timing.hulls);
+    io.counter("pairs_by_index", m.pairs_by_index, timing.pairs_by_index);
+    io.counter("pairs_by_box", m.pairs_by_box, timing.pairs_by_box);
+    io.counter("pairs_by_instant", m.pairs_by_instant, timing.pairs_by_instant);
+    io.counter("pairs_by_cache", m.pairs_by_cache, timing.pairs_by_cache);
+    io.counter("pairs_by_plane", m.pairs_by_plane, timing.pairs_by_plane);
+    io.counter("pairs_by_lp", m.pairs_by_lp, timing.pairs_by_lp);
+    io.counter("solver_calls", m.solver_calls, timing.solver_calls);
+    io.counter("solver_iterations", m.solver_iterations, timing.solver_iterations);
+    io.counter("peak_rss_kb", m.peak_rss_kb, timing.peak_rss_kb);
+    io.flag("from_watchdog", m.from_watchdog, timing.from_watchdog);
   }
 };
 
 template Bytes encode(const PlanTiming& value);
 template tl::expected<PlanTiming, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<PlanTiming>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

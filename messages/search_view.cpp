@@ -12,12 +12,12 @@ struct wire::Form<SearchView> {
   };
 
   static void fields(auto& io, auto& m, auto& view) {
-    io.header(m.header, view.header);
-    io.integer(m.request_id, view.request_id, 1, kMaxCounter);
-    io.integer(m.left_out, view.left_out, 0, std::numeric_limits<std::int32_t>::max());
-    io.list(m.nodes, view.nodes, [&io](auto& n, auto& node) {
-      io.position(n.position, node.position);
-      io.integer(n.parent, node.parent, -1, kMaxSearchNodes);
+    io.header("header", m.header, view.header);
+    io.integer("request_id", m.request_id, view.request_id, 1, kMaxCounter);
+    io.integer("left_out", m.left_out, view.left_out, 0, std::numeric_limits<std::int32_t>::max());
+    io.list("nodes", m.nodes, view.nodes, [&io](auto& n, auto& node) {
+      io.position("position", n.position, node.position);
+      io.integer("parent", n.parent, node.parent, -1, kMaxSearchNodes);
     });
   }
 
@@ -28,5 +28,6 @@ struct wire::Form<SearchView> {
 
 template Bytes encode(const SearchView& value);
 template tl::expected<SearchView, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<SearchView>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

@@ -12,24 +12,25 @@ struct wire::Form<TrackBounds> {
   };
 
   static void fields(auto& io, auto& m, auto& of) {
-    io.header(m.header, of.header);
-    io.time(m.at_us, of.at);
-    io.number(m.confidence, of.confidence, kAboveZero, 1.0);
-    io.integer(m.left_out, of.left_out, 0, std::numeric_limits<std::int32_t>::max());
-    io.list(m.bounds, of.bounds, [&io](auto& b, auto& bound) {
-      io.counter(b.id, bound.id);
-      io.enumeration(b.kind, bound.kind, MotionKind::Resting);
-      io.enumeration(b.ruled_by, bound.ruled_by, BoundRule::Reach);
-      io.number(b.ahead, bound.ahead_s, 0.0, kMaxCoordinate);
-      io.number(b.model, bound.model, 0.0, kMaxCoordinate);
-      io.number(b.measured, bound.measured, 0.0, kMaxCoordinate);
-      io.number(b.promised, bound.promised, 0.0, kMaxCoordinate);
-      io.number(b.evidence, bound.evidence, 0.0, kMaxCoordinate);
+    io.header("header", m.header, of.header);
+    io.time("at_us", m.at_us, of.at);
+    io.number("confidence", m.confidence, of.confidence, kAboveZero, 1.0);
+    io.integer("left_out", m.left_out, of.left_out, 0, std::numeric_limits<std::int32_t>::max());
+    io.list("bounds", m.bounds, of.bounds, [&io](auto& b, auto& bound) {
+      io.counter("id", b.id, bound.id);
+      io.enumeration("kind", b.kind, bound.kind, MotionKind::Resting);
+      io.enumeration("ruled_by", b.ruled_by, bound.ruled_by, BoundRule::Reach);
+      io.number("ahead", b.ahead, bound.ahead_s, 0.0, kMaxCoordinate);
+      io.number("model", b.model, bound.model, 0.0, kMaxCoordinate);
+      io.number("measured", b.measured, bound.measured, 0.0, kMaxCoordinate);
+      io.number("promised", b.promised, bound.promised, 0.0, kMaxCoordinate);
+      io.number("evidence", b.evidence, bound.evidence, 0.0, kMaxCoordinate);
     });
   }
 };
 
 template Bytes encode(const TrackBounds& value);
 template tl::expected<TrackBounds, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<TrackBounds>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

@@ -31,19 +31,19 @@ tern_msgs::track_piece_t write_piece(const CubicPiece& piece, const Vec3& alpha)
 
 CubicPiece read_piece(wire::FieldReader& read, const tern_msgs::track_piece_t& m) {
   CubicPiece piece;
-  piece.duration = read.duration(m.duration_us, Duration{1}, kMaxSpan);
-  piece.coefficients.col(0) = read.vec3(m.c3, -kMaxJerk, kMaxJerk);
-  piece.coefficients.col(1) = read.vec3(m.c2, -kMaxAcceleration, kMaxAcceleration);
-  piece.coefficients.col(2) = read.vec3(m.c1, -kMaxSpeed, kMaxSpeed);
-  piece.coefficients.col(3) = read.position(m.c0);
+  piece.duration = read.named("duration_us").duration(m.duration_us, Duration{1}, kMaxSpan);
+  piece.coefficients.col(0) = read.named("c3").vec3(m.c3, -kMaxJerk, kMaxJerk);
+  piece.coefficients.col(1) = read.named("c2").vec3(m.c2, -kMaxAcceleration, kMaxAcceleration);
+  piece.coefficients.col(2) = read.named("c1").vec3(m.c1, -kMaxSpeed, kMaxSpeed);
+  piece.coefficients.col(3) = read.named("c0").position(m.c0);
   return piece;
 }
 
 AlphaShares read_shares(wire::FieldReader& read, const tern_msgs::alpha_shares_t& m) {
   AlphaShares shares{};
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    shares[k] = static_cast<float>(read.number(m.at[k], wire::kAboveZero, 1.0));
-    read.consistent(k == 0 || m.at[k] <= m.at[k - 1]);
+    shares[k] = static_cast<float>(read.named("shares").number(m.at[k], wire::kAboveZero, 1.0));
+    read.consistent(k == 0 || m.at[k] <= m.at[k - 1], "shares of alpha grow");
   }
   return shares;
 }
@@ -62,17 +62,17 @@ struct wire::Form<TrackSet> {
   };
 
   static void fields(auto& io, auto& m, auto& set) {
-    io.header(m.header, set.header);
-    io.batch(m.batch, set.batch);
-    io.time(m.made_at_us, set.made_at);
-    io.number(m.confidence, set.confidence, kAboveZero, 1.0);
-    io.integer(m.left_out, set.left_out, 0, std::numeric_limits<std::int32_t>::max());
-    io.list(m.tracks, set.tracks, [&io](auto& t, auto& track) {
-      io.counter(t.id, track.id);
-      io.enumeration(t.kind, track.kind, TrackKind::Estimated);
-      io.extents(t.half_extents, track.half_extents);
-      io.time(t.start_us, track.motion.start);
-      io.number(t.top_speed, track.top_speed, 0.0, kMaxSpeed);
+    io.header("header", m.header, set.header);
+    io.batch("batch", m.batch, set.batch);
+    io.time("made_at_us", m.made_at_us, set.made_at);
+    io.number("confidence", m.confidence, set.confidence, kAboveZero, 1.0);
+    io.integer("left_out", m.left_out, set.left_out, 0, std::numeric_limits<std::int32_t>::max());
+    io.list("tracks", m.tracks, set.tracks, [&io](auto& t, auto& track) {
+      io.counter("id", t.id, track.id);
+      io.enumeration("kind", t.kind, track.kind, TrackKind::Estimated);
+      io.extents("half_extents", t.half_extents, track.half_extents);
+      io.time("start_us", t.start_us, track.motion.start);
+      io.number("top_speed", t.top_speed, track.top_speed, 0.0, kMaxSpeed);
     });
   }
 
@@ -94,24 +94,30 @@ struct wire::Form<TrackSet> {
     std::vector<std::int64_t> ids;
     for (std::size_t k = 0; k < set.tracks.size(); ++k) {
       Track& track = set.tracks[k];
-      const auto count = static_cast<std::size_t>(read.integer(m.tracks[k].piece_count, 1, kMaxPiecesPerBatch));
+      read.enter("tracks", k);
+      const std::int32_t piece_count = m.tracks[k].piece_count;
+      const auto count =
+          static_cast<std::size_t>(read.named("piece_count").integer(piece_count, 1, kMaxPiecesPerBatch));
       for (const tern_msgs::track_piece_t& piece : pieces.take(count)) {
         track.motion.pieces.push_back(read_piece(read, piece));
-        track.alpha.push_back(read.extents(piece.alpha));
+        track.alpha.push_back(read.named("alpha").extents(piece.alpha));
       }
       if (track.kind == TrackKind::Estimated) {
         for (const tern_msgs::alpha_shares_t& share : shares.take(count))
           track.shares.push_back(read_shares(read, share));
       }
-      if (track.kind == TrackKind::Static) read.consistent(rests(track.motion.pieces));
+      if (track.kind == TrackKind::Static)
+        read.consistent(rests(track.motion.pieces), "a static track moves, or has several pieces");
       ids.push_back(track.id);
     }
-    read.consistent(pieces.complete() && shares.complete());
-    read.consistent(all_different(std::move(ids)));
+    read.leave();
+    read.consistent(pieces.complete() && shares.complete(), "the tracks' piece counts do not sum to the pieces");
+    read.consistent(all_different(std::move(ids)), "two tracks have one id");
   }
 };
 
 template Bytes encode(const TrackSet& value);
 template tl::expected<TrackSet, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<TrackSet>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

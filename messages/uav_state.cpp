@@ -11,15 +11,16 @@ struct wire::Form<UavState> {
   static constexpr Layout<Message> kLayout{};
 
   static void fields(auto& io, auto& m, auto& state) {
-    io.header(m.header, state.header);
-    io.time(m.at_us, state.at);
-    io.motion(m.motion, state.motion);
+    io.header("header", m.header, state.header);
+    io.time("at_us", m.at_us, state.at);
+    io.motion("motion", m.motion, state.motion);
     // −π is accepted: atan2(−0, −1) returns it, and it is the same yaw as π.
-    io.number(m.yaw, state.yaw, -std::numbers::pi, std::numbers::pi);
+    io.number("yaw", m.yaw, state.yaw, -std::numbers::pi, std::numbers::pi);
   }
 };
 
 template Bytes encode(const UavState& value);
 template tl::expected<UavState, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<UavState>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

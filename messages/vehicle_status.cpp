@@ -16,16 +16,16 @@ struct wire::Form<VehicleStatus> {
   static constexpr double kUnknown = -1.0;  // battery
 
   static void fields(auto& io, auto& m, auto& status) {
-    io.header(m.header, status.header);
-    io.time(m.at_us, status.at);
-    io.flag(m.armed, status.armed);
-    io.flag(m.following, status.following);
-    io.flag(m.landed, status.landed);
-    io.enumeration(m.estimator, status.estimator, EstimatorHealth::Lost);
-    io.extents(m.position_sigma, status.position_sigma);
-    io.counter(m.resets, status.resets);
-    io.text(m.mode, status.mode);
-    io.text(m.why_not, status.why_not);
+    io.header("header", m.header, status.header);
+    io.time("at_us", m.at_us, status.at);
+    io.flag("armed", m.armed, status.armed);
+    io.flag("following", m.following, status.following);
+    io.flag("landed", m.landed, status.landed);
+    io.enumeration("estimator", m.estimator, status.estimator, EstimatorHealth::Lost);
+    io.extents("position_sigma", m.position_sigma, status.position_sigma);
+    io.counter("resets", m.resets, status.resets);
+    io.text("mode", m.mode, status.mode);
+    io.text("why_not", m.why_not, status.why_not);
   }
 
   static void write_rest(Message& m, const VehicleStatus& status) { m.battery = status.battery.value_or(kUnknown); }
@@ -39,5 +39,6 @@ struct wire::Form<VehicleStatus> {
 
 template Bytes encode(const VehicleStatus& value);
 template tl::expected<VehicleStatus, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<VehicleStatus>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

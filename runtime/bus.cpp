@@ -13,6 +13,7 @@
 
 #include "core/world/message_limits.h"
 #include "core/world/names.h"
+#include "messages/refused_field.h"
 #include "runtime/authentication.h"
 #include "runtime/node.h"
 #include "runtime/sender_watch.h"
@@ -44,6 +45,43 @@ class LogLimiter {
   std::int64_t pending_ = 0;
 };
 
+/// Counts refused messages in spans of a second, for HEARTBEAT.
+class RefusalRate {
+ public:
+  /// @param why  in words
+  void add(UTime now, std::string why) {
+    if (now - begun_ > kSenderTroubleReported || count_ == 0) *this = {};
+    if (count_ == 0) begun_ = now;
+    ++count_;
+    last_ = now;
+    why_ = std::move(why);
+    if (now - begun_ < kLogInterval) return;
+    per_second_ = static_cast<double>(count_ - 1) / (now - begun_).seconds();
+    count_ = 1;
+    begun_ = now;
+  }
+  /// @return "30/s refused: detections[1].position.x is nan"; empty unless several messages were refused, and recently.
+  [[nodiscard]] std::string text(UTime now) const {
+    constexpr int kSeveral = 3;
+    if (now - last_ > kSenderTroubleReported) return "";
+    if (per_second_ > 0.0) return fmt::format("{:.0f}/s refused: {}", std::max(per_second_, 1.0), why_);
+    return count_ < kSeveral ? "" : fmt::format("{} refused: {}", count_, why_);
+  }
+
+ private:
+  std::int64_t count_ = 0;  // since begun_
+  UTime begun_, last_;
+  double per_second_ = 0.0;
+  std::string why_;
+};
+
+/// Why a message of a channel is refused: the reason, and the field if it is known.
+std::string describe(std::string_view channel, Rejection reason, std::span<const std::uint8_t> bytes) {
+  std::string field;
+  visit_channel(channel, [&]<class T>(const Channel<T>&) { field = refused_field<T>(bytes); });
+  return field.empty() ? to_string(reason) : field;
+}
+
 }  // namespace
 
 struct Bus::ChannelState {
@@ -57,6 +95,8 @@ struct Bus::ChannelState {
   bool admitted = false;  ///< … true: accepted
   ReplayGuard guard;      ///< with keys
   LogLimiter reject_log, send_log;
+  RefusalRate refused;
+  std::string why;  ///< in words, of the newest refusal
   std::deque<Encoder> unsent;
   UTime due = kNever;
 };
@@ -72,7 +112,8 @@ struct Bus::State {
   std::map<std::string, ChannelState, std::less<>> channels;
   std::int64_t unsent = 0;
   std::int64_t deliveries = 0;
-  std::int64_t received_us = 0;  ///< system time at which the message being delivered arrived
+  std::int64_t received_us = 0;             ///< system time at which the message being delivered arrived
+  std::span<const std::uint8_t> delivered;  ///< the message being delivered
   std::exception_ptr error;
   Listener listener;
   lcm::Subscription* all_channels = nullptr;
@@ -96,6 +137,7 @@ struct Bus::State {
     if (state.error) return;
     state.received_us = buffer->recv_utime;
     channel->counted = false;
+    state.delivered = {};
     std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
     try {
       if (state.keys) {
@@ -106,6 +148,7 @@ struct Bus::State {
         state.sender_role = verified->role;
       }
       ++state.deliveries;
+      state.delivered = bytes;
       for (const RawHandler& handler : channel->handlers) handler(bytes);
     } catch (...) {
       state.error = std::current_exception();
@@ -224,15 +267,18 @@ void Bus::reject(const std::string& name, Rejection reason) {
   const std::scoped_lock lock(state_->mutex);
   ChannelState& channel = state_->channel(name);
   channel.admitted = false;
-  if (!std::exchange(channel.counted, true)) count_refused(channel, reason);
+  if (std::exchange(channel.counted, true)) return;
+  channel.why = describe(name, reason, state_->delivered);
+  count_refused(channel, reason);
 }
 
 /// @pre the mutex is held
 void Bus::count_refused(ChannelState& channel, Rejection reason) {
   ++channel.counters.rejected[static_cast<int>(reason)];
+  if (reason != Rejection::Sender && reason != Rejection::Future) channel.refused.add(clock_.now(), channel.why);
   if (reason == Rejection::Repeated) return;  // a network may duplicate messages
   if (const auto times = channel.reject_log.admit(clock_.now())) {
-    spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, to_string(reason),
+    spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, channel.why,
                  *times);
   }
 }
@@ -245,6 +291,8 @@ bool Bus::admits(const std::string& name, const MessageName& message, UTime clai
   channel.counters.lost = channel.senders.lost();
   channel.admitted = !refusal;
   if (refusal) {
+    const bool is_repeated = *refusal == Rejection::Repeated;
+    channel.why = is_repeated ? fmt::format("repeats number {}", message.sequence) : to_string(*refusal);
     count_refused(channel, *refusal);
   } else {
     ++channel.counters.received;
@@ -257,12 +305,14 @@ std::string Bus::sender_troubles() const {
   const UTime now = clock_.now();
   std::string text;
   for (const auto& [name, channel] : state_->channels) {
-    const std::string separator = text.empty() ? "" : "; ";
+    const std::string separator = text.empty() ? "" : "; ", refused = channel.refused.text(now);
     if (channel.senders.has_second_sender(now)) {
       text += fmt::format("{}{}: two senders, only the first is accepted", separator, name);
     } else if (const auto ahead = channel.senders.ahead(now)) {
       text += fmt::format("{}{}: stamped {:.1f} s ahead of this clock, refused: synchronize the clocks", separator,
                           name, ahead->seconds());
+    } else if (!refused.empty()) {
+      text += fmt::format("{}{}: {}", separator, name, refused);
     }
   }
   return text;
@@ -287,7 +337,9 @@ void Bus::count_late_on(std::string_view name) {
 
 void Bus::refuse_on(std::string_view name, Rejection reason) {
   const std::scoped_lock lock(state_->mutex);
-  count_refused(state_->channel(name), reason);
+  ChannelState& channel = state_->channel(name);
+  channel.why = to_string(reason);
+  count_refused(channel, reason);
 }
 
 const std::string& Bus::suffix() const { return state_->suffix; }

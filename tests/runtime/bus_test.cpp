@@ -168,6 +168,35 @@ TEST_F(BusTest, WhatIsFromTheFutureReachesNoHandler) {
   EXPECT_EQ(bus.sender_troubles(), "GOAL: stamped 0.1 s ahead of this clock, refused: synchronize the clocks");
 }
 
+TEST_F(BusTest, SaysWhichFieldIsRefusedAndHowOften) {
+  bus.subscribe(channels::kGoal, [](const Goal&) {});
+  Goal bad = goal(1);
+  bad.position.y() = std::numeric_limits<double>::quiet_NaN();
+  const auto send = [&](int times) {
+    for (int k = 0; k < times; ++k) {
+      bad.header = {{50, k + 1}, clock.now()};
+      arrive_bytes(encode(bad));
+      settle();
+      clock.advance_to(clock.now() + Duration{50'000});
+    }
+  };
+  send(2);
+  EXPECT_EQ(bus.sender_troubles(), "") << "twice may be noise";
+  send(3);
+  EXPECT_EQ(bus.sender_troubles(), "GOAL: 5 refused: position.y is nan");
+  send(40);
+  EXPECT_EQ(bus.sender_troubles(), "GOAL: 20/s refused: position.y is nan");
+  clock.advance_to(clock.now() + kSenderTroubleReported);
+  EXPECT_EQ(bus.sender_troubles(), "");
+}
+
+TEST_F(BusTest, SaysWhichNumberIsRepeated) {
+  listen();
+  for (int k = 0; k < 4; ++k) arrive(50, 1);
+  settle();
+  EXPECT_EQ(bus.sender_troubles(), "GOAL: 3 refused: repeats number 1");
+}
+
 TEST_F(BusTest, ItsOwnNameIsHeardOnlyWhereItHasSpoken) {
   listen();
   bus.publish(kChannel, goal(1));
