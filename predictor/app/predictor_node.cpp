@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/world/names.h"
 #include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "messages/channels.h"
+#include "messages/codec.h"
+#include "messages/refused_field.h"
 #include "predictor/models/declared.h"
 #include "predictor/tracking/usable.h"
 
@@ -15,6 +18,10 @@ namespace tern {
 namespace {
 
 constexpr const char* kDeclaredInput = "declared motions";
+
+std::string input_name(const ObservationSet& observations) {
+  return fmt::format("obstacle observations of sensor {}", observations.sensor_id);
+}
 
 }  // namespace
 
@@ -49,25 +56,65 @@ bool PredictorNode::is_active_sender(const ObservationSet& observations, UTime n
 }
 
 void PredictorNode::on_observations(const ObservationSet& observations) {
-  const std::string input = fmt::format("obstacle observations of sensor {}", observations.sensor_id);
-  if (!is_active_sender(observations, bus_.clock().now())) {
+  const UTime now = bus_.clock().now();
+  if (!is_active_sender(observations, now)) {
     bus_.count_late(channels::kObstacleObservations);
-    return watch_.trouble("senders",
-                          input + ": a second process sends sets, which are not used (do two sensors have one id?)",
-                          bus_.clock().now());
+    return watch_.trouble(
+        "senders",
+        input_name(observations) + ": a second process sends sets, which are not used (do two sensors have one id?)",
+        now);
   }
-  ObservationSet usable = without_explained(observations, declared_);
+  if (observations.at + kMaxAge < now) {
+    bus_.count_late(channels::kObstacleObservations);
+    return watch_.trouble("age",
+                          fmt::format("{}: measured {:.0f} s ago, not used (at_us is in µs, by the vehicle's clock)",
+                                      input_name(observations), (now - observations.at).seconds()),
+                          now);
+  }
+  waiting_.push_back({without_explained(observations, declared_), bus_.received()});
+}
+
+void PredictorNode::use_waiting() {
+  const UTime begun = bus_.clock().now();
+  for (UTime now = begun; !waiting_.empty() && now - begun <= kMaxWorkPerStep; now = bus_.clock().now()) {
+    const Waiting oldest = std::move(waiting_.front());
+    waiting_.pop_front();
+    const ObservationSet& set = oldest.observations;
+    const bool is_replaced = std::ranges::any_of(waiting_, [&](const Waiting& other) {
+      return other.observations.sensor_id == set.sensor_id && other.observations.at > set.at;
+    });
+    if (now - oldest.arrived > kMaxWait && is_replaced) {
+      bus_.count_late(channels::kObstacleObservations);
+      watch_.trouble("overloaded", input_name(set) + ": overloaded, sets are skipped for newer ones", now);
+    } else {
+      use(set);
+    }
+  }
+}
+
+void PredictorNode::use(const ObservationSet& observations) {
+  const UTime now = bus_.clock().now();
+  const std::string input = input_name(observations);
+  ObservationSet usable = observations;
   if (const std::size_t unusable = remove_unusable(usable); unusable > 0) {
     const std::string text = fmt::format("{}: {} detections with a standard deviation above {} m are not used", input,
                                          unusable, kMaxDeviation);
-    watch_.trouble("unusable", text, bus_.clock().now());
+    watch_.trouble("unusable", text, now);
   }
-  const UpdateOutcome outcome = tracker_.update(usable);
-  if (outcome == UpdateOutcome::Used) return have_input(input, observations.at);
+  const UpdateOutcome outcome = tracker_.update(usable, vehicle_.value_or(usable.sensor_position));
+  if (outcome == UpdateOutcome::Used) {
+    if (const std::int32_t left_out = tracker_.left_out(); left_out > 0) {
+      watch_.trouble("flood",
+                     fmt::format("overloaded: {} new detections, the farthest, are not used; {} sent {} (false ones?)",
+                                 left_out, input, usable.detections.size()),
+                     now);
+    }
+    return have_input(input, observations.at);
+  }
   bus_.count_late(channels::kObstacleObservations);
   if (outcome == UpdateOutcome::Repeated) {
     const std::string text = input + ": two sets of one time, the second is not used (do two sensors have one id?)";
-    watch_.trouble("repeated", text, bus_.clock().now());
+    watch_.trouble("repeated", text, now);
   }
 }
 
@@ -79,6 +126,7 @@ void PredictorNode::have_input(const std::string& input, UTime made_at) {
 }
 
 void PredictorNode::step(UTime now) {
+  use_waiting();
   if (now < next_) return;
   publish(now);
   next_ = next_ + config_.period();
@@ -101,7 +149,8 @@ void PredictorNode::publish_bounds(const TrackSet& set, const std::vector<TrackB
       ++of.left_out;
     }
   }
-  bus_.publish(channels::kTrackBounds, of);
+  if (const auto why = refusal(of, now)) return report_unsendable(channels::kTrackBounds.name, *why, now);
+  bus_.publish(channels::kTrackBounds, std::move(of));
 }
 
 void PredictorNode::publish(UTime now) {
@@ -116,19 +165,58 @@ void PredictorNode::publish(UTime now) {
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
   if (vehicle_) sort_by_reach(set.tracks, *vehicle_, now, config_.tracker.prediction.horizon);
-  set.left_out = declared_left_out_;
+  const std::int32_t left_out_before = declared_left_out_ + tracker_.left_out();
+  set.left_out = left_out_before;
   std::vector<TrackSet> batches = split_batches(set);
   if (declared_left_out_ > 0) {
     watch_.trouble("declared left out",
                    fmt::format("{} declared motions are missing: their owner left them out", declared_left_out_), now);
   }
-  if (const std::int32_t left_out = batches.front().left_out - declared_left_out_; left_out > 0) {
+  if (const std::int32_t left_out = batches.front().left_out - left_out_before; left_out > 0) {
     const std::string text =
         fmt::format("{} of {} tracks do not fit into a set: the farthest are left out", left_out, set.tracks.size());
     watch_.trouble("left out", text, now);
   }
   if (is_bounds_due) publish_bounds(set, bounds, now);
-  bus_.publish_paced(channels::kPredictions, std::move(batches));
+  if (remove_unsendable(batches, now)) bus_.publish_paced(channels::kPredictions, std::move(batches));
+}
+
+template <class T>
+std::optional<std::string> PredictorNode::refusal(T message, UTime now) const {
+  message.header = {{bus_.epoch_us(), 1}, now};  // the bus writes the real one
+  const Bytes bytes = encode(message);
+  const auto decoded = decode<T>(bytes);
+  if (decoded) return std::nullopt;
+  const std::string field = refused_field<T>(bytes);
+  return field.empty() ? to_string(decoded.error()) : field;
+}
+
+void PredictorNode::report_unsendable(const char* channel, const std::string& why, UTime now) {
+  ++unsendable_;
+  watch_.trouble(
+      channel,
+      fmt::format("{}: not sent, since every receiver would refuse it: {} ({} so far)", channel, why, unsendable_),
+      now);
+}
+
+bool PredictorNode::remove_unsendable(std::vector<TrackSet>& batches, UTime now) {
+  std::int32_t removed = 0;
+  for (TrackSet& batch : batches) {
+    if (!refusal(batch, now)) continue;
+    TrackSet alone = batch;
+    removed += static_cast<std::int32_t>(std::erase_if(batch.tracks, [&](const Track& track) {
+      alone.tracks = {track};
+      const auto why = refusal(alone, now);
+      if (why) report_unsendable(channels::kPredictions.name, fmt::format("track {}: {}", track.id, *why), now);
+      return why.has_value();
+    }));
+    if (const auto why = refusal(batch, now)) {
+      report_unsendable(channels::kPredictions.name, *why, now);
+      return false;
+    }
+  }
+  for (TrackSet& batch : batches) batch.left_out += removed;
+  return true;
 }
 
 NodeHealth PredictorNode::health() const {

@@ -1,7 +1,9 @@
 // The node of tern-predictor: observations and declared motions in, predictions out.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,6 +25,13 @@ inline constexpr Duration kBoundsPeriod{500'000};
 /// Another process may send a sensor's sets after the first one was silent for this long.
 inline constexpr Duration kSensorSilence{1'000'000};
 
+/// Observation sets that waited longer in this process are skipped if newer ones wait.
+inline constexpr Duration kMaxWait{100'000};
+/// step() begins no further observation set after this time.
+inline constexpr Duration kMaxWorkPerStep{20'000};
+/// The oldest observation set that is used, by the clock. Sensors are never that late: its time is in another unit.
+inline constexpr Duration kMaxAge{10'000'000};
+
 /// Receives observations and declared motions, and publishes predictions.
 ///
 /// - From the first input on, it publishes a complete set of PREDICTIONS each period. An empty world is an empty set.
@@ -30,6 +39,10 @@ inline constexpr Duration kSensorSilence{1'000'000};
 ///   observation set. When all inputs stop, made_at stays and α of estimated tracks grows, so the planner sees the age.
 /// - Observation sets are counted as late and not used if they are too old, repeated, or sent by a second process. The
 ///   bus rejects sets with a time in the future.
+/// - Observation sets wait until step(). One that waited longer than kMaxWait is skipped if a newer one of its sensor
+///   waits, and counted as late. step() takes kMaxWorkPerStep and one set at most, so that heartbeats and signals wait
+///   no longer, however many sets have arrived.
+/// - A track or message that every receiver would refuse is not sent but counted, and HEARTBEAT names its field.
 /// - TRACK_BOUNDS, the reason for each estimated track's width, is published with the first set of each kBoundsPeriod.
 ///
 /// | HEARTBEAT            | while                                                                           |
@@ -41,19 +54,30 @@ class PredictorNode final : public Node {
  public:
   PredictorNode(Bus& bus, const PredictorConfig& config);
 
-  [[nodiscard]] UTime next_wakeup() const override { return next_; }
+  [[nodiscard]] UTime next_wakeup() const override {
+    return waiting_.empty() ? next_ : std::min(next_, waiting_[0].arrived);
+  }
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
 
  private:
   void on_declared(const TrackSet& batch);
   void on_observations(const ObservationSet& observations);
+  void use_waiting();
+  void use(const ObservationSet& observations);
   /// True if the sender is the active one of its sensor: one process per sensor_id, as on a channel with one sender.
   bool is_active_sender(const ObservationSet& observations, UTime now);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
   /// Publishes the bounds of the set's estimated tracks, in its order. @param bounds  ascending by id
   void publish_bounds(const TrackSet& set, const std::vector<TrackBound>& bounds, UTime now);
+
+  /// Why receivers would refuse this message; nullopt if they would not.
+  template <class T>
+  [[nodiscard]] std::optional<std::string> refusal(T message, UTime now) const;
+  void report_unsendable(const char* channel, const std::string& why, UTime now);
+  /// Removes, counts and reports tracks that receivers would refuse. @return false if they would refuse the set even so
+  bool remove_unsendable(std::vector<TrackSet>& batches, UTime now);
 
   Bus& bus_;
   PredictorConfig config_;
@@ -63,6 +87,11 @@ class PredictorNode final : public Node {
     UTime at;
   };
   std::map<std::int32_t, Sender> senders_;  // by sensor; silent ones are removed
+  struct Waiting {
+    ObservationSet observations;
+    UTime arrived;
+  };
+  std::deque<Waiting> waiting_;  // in the order of their arrival
   BatchCollector<TrackSet> collector_;
   std::vector<Track> declared_;
   std::int32_t declared_left_out_ = 0;
@@ -70,6 +99,7 @@ class PredictorNode final : public Node {
   std::optional<Vec3> vehicle_;   // W, m
   std::optional<UTime> made_at_;  // empty: no input yet
   std::int64_t sets_ = 0;
+  std::int64_t unsendable_ = 0;  // tracks and messages that receivers would refuse
   UTime next_ = kNever;
   UTime next_bounds_;
 };

@@ -1,8 +1,11 @@
 #include "predictor/tracking/assignment.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace tern {
@@ -57,66 +60,85 @@ std::vector<Index> cheapest_assignment(const Eigen::MatrixXd& cost) {
 }
 
 struct Group {
-  std::vector<Index> rows, columns;
+  std::vector<std::size_t> rows, columns;  // ascending
+  std::vector<Pairing> pairings;
 };
 
-// Marks the index as seen. @return true the first time
-bool first_time(std::vector<bool>& seen, Index index) {
-  const auto i = static_cast<std::size_t>(index);
-  if (seen[i]) return false;
-  seen[i] = true;
-  return true;
+// Connected components of the pairings within the gate, in order of their first row.
+std::vector<Group> groups_of(std::size_t rows, std::size_t columns, const std::vector<Pairing>& pairings, double gate) {
+  std::vector<std::size_t> parent(rows + columns);  // a forest of rows, then columns; the root is the least of its tree
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&parent](std::size_t node) {
+    while (parent[node] != node) node = parent[node] = parent[parent[node]];
+    return node;
+  };
+  for (const Pairing& pairing : pairings) {
+    if (pairing.cost > gate) continue;
+    const auto [first, second] = std::minmax({root(pairing.row), root(rows + pairing.column)});
+    parent[second] = first;
+  }
+  std::vector<Group> groups(rows);  // by root; a column alone is in none
+  for (std::size_t r = 0; r < rows; ++r) groups[root(r)].rows.push_back(r);
+  for (std::size_t c = 0; c < columns; ++c) {
+    if (root(rows + c) < rows) groups[root(rows + c)].columns.push_back(c);
+  }
+  for (const Pairing& pairing : pairings) {
+    if (pairing.cost <= gate) groups[root(pairing.row)].pairings.push_back(pairing);
+  }
+  std::erase_if(groups, [](const Group& group) { return group.pairings.empty(); });
+  return groups;
 }
 
-// Connected components of the pairs within the gate, in order of their first row.
-std::vector<Group> groups_of(const Eigen::MatrixXd& cost, double gate) {
-  std::vector<bool> row_seen(static_cast<std::size_t>(cost.rows()), false);
-  std::vector<bool> column_seen(static_cast<std::size_t>(cost.cols()), false);
-  std::vector<Group> groups;
-  for (Index seed = 0; seed < cost.rows(); ++seed) {
-    if (!first_time(row_seen, seed)) continue;
-    Group group{{seed}, {}};
-    for (std::size_t next = 0; next < group.rows.size(); ++next) {
-      for (Index c = 0; c < cost.cols(); ++c) {
-        if (cost(group.rows[next], c) > gate || !first_time(column_seen, c)) continue;
-        group.columns.push_back(c);
-        for (Index r = 0; r < cost.rows(); ++r) {
-          if (cost(r, c) > gate || !first_time(row_seen, r)) continue;
-          group.rows.push_back(r);
-        }
-      }
-    }
-    std::sort(group.rows.begin(), group.rows.end());
-    std::sort(group.columns.begin(), group.columns.end());
-    groups.push_back(std::move(group));
+std::size_t position_of(std::size_t index, const std::vector<std::size_t>& ascending) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(ascending, index) - ascending.begin());
+}
+
+void assign_optimally(const Group& group, double gate, std::vector<int>& column_of) {
+  const auto rows = static_cast<Index>(group.rows.size());
+  const auto columns = static_cast<Index>(group.columns.size());
+  // Each row has an extra column that means "unassigned". A pair beyond the gate costs more than leaving both alone.
+  Eigen::MatrixXd cost(rows, columns + rows);
+  cost.leftCols(columns).setConstant(2.0 * gate + 1.0);
+  cost.rightCols(rows).setConstant(gate);
+  for (const Pairing& pairing : group.pairings) {
+    cost(static_cast<Index>(position_of(pairing.row, group.rows)),
+         static_cast<Index>(position_of(pairing.column, group.columns))) = pairing.cost;
   }
-  return groups;
+  const std::vector<Index> cheapest = cheapest_assignment(cost);
+  for (std::size_t r = 0; r < group.rows.size(); ++r) {
+    const Index c = cheapest[r];
+    if (c >= columns || cost(static_cast<Index>(r), c) > gate) continue;
+    column_of[group.rows[r]] = static_cast<int>(group.columns[static_cast<std::size_t>(c)]);
+  }
+}
+
+void assign_cheapest_first(Group group, std::vector<bool>& taken, std::vector<int>& column_of) {
+  std::ranges::sort(group.pairings, {},
+                    [](const Pairing& pairing) { return std::tuple(pairing.cost, pairing.row, pairing.column); });
+  for (const Pairing& pairing : group.pairings) {
+    if (column_of[pairing.row] != kUnassigned || taken[pairing.column]) continue;
+    column_of[pairing.row] = static_cast<int>(pairing.column);
+    taken[pairing.column] = true;
+  }
 }
 
 }  // namespace
 
-std::vector<int> assign(const Eigen::MatrixXd& cost, double gate) {
-  std::vector<int> result(static_cast<std::size_t>(cost.rows()), kUnassigned);
-  for (const Group& group : groups_of(cost, gate)) {
-    const auto rows = static_cast<Index>(group.rows.size());
-    const auto columns = static_cast<Index>(group.columns.size());
-    if (columns == 0) continue;
-    // Each row has an extra column that means "unassigned". A pair beyond the gate costs more than leaving both alone.
-    Eigen::MatrixXd square = Eigen::MatrixXd::Constant(rows, columns + rows, gate);
-    for (Index r = 0; r < rows; ++r) {
-      for (Index c = 0; c < columns; ++c) {
-        const double pair = cost(group.rows[static_cast<std::size_t>(r)], group.columns[static_cast<std::size_t>(c)]);
-        square(r, c) = pair <= gate ? pair : 2.0 * gate + 1.0;
-      }
-    }
-    const std::vector<Index> column_of = cheapest_assignment(square);
-    for (std::size_t r = 0; r < group.rows.size(); ++r) {
-      const Index c = column_of[r];
-      if (c >= columns || square(static_cast<Index>(r), c) > gate) continue;
-      result[static_cast<std::size_t>(group.rows[r])] = static_cast<int>(group.columns[static_cast<std::size_t>(c)]);
+std::vector<int> assign(std::size_t rows, std::size_t columns, const std::vector<Pairing>& pairings, double gate) {
+  std::vector<int> column_of(rows, kUnassigned);
+  std::vector<bool> taken(columns, false);  // columns of groups that are assigned cheapest first
+  double left = kMaxAssignmentSteps;
+  for (Group& group : groups_of(rows, columns, pairings, gate)) {
+    const auto r = static_cast<double>(group.rows.size()), c = static_cast<double>(group.columns.size());
+    const double steps = r * r * (r + c);
+    if (steps <= left) {
+      left -= steps;
+      assign_optimally(group, gate, column_of);
+    } else {
+      assign_cheapest_first(std::move(group), taken, column_of);
     }
   }
-  return result;
+  return column_of;
 }
 
 }  // namespace tern

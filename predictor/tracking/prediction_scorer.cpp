@@ -111,6 +111,7 @@ PredictionScorer::PredictionScorer(double confidence, bool learns) : learns_(lea
 
 void PredictionScorer::update(UTime at, const std::vector<DetectedTrack>& seen, const std::set<std::int64_t>& tracks) {
   finished_.clear();
+  note_places(seen);
   for (const DetectedTrack& track : seen) {
     History& history = histories_[track.id];
     if (history.measurements.empty() || history.born != track.born) {
@@ -132,6 +133,17 @@ void PredictionScorer::update(UTime at, const std::vector<DetectedTrack>& seen, 
     for (const StoredPrediction& prediction : history.predictions) finished_.push_back(prediction.result);
     return true;
   });
+}
+
+void PredictionScorer::note_places(const std::vector<DetectedTrack>& seen) {
+  places_.clear();
+  for (const auto& [id, history] : histories_) {
+    Place& place = places_.emplace_back(Place{Box(), &history});
+    for (const Measurement& measurement : history.measurements) place.box.extend(measurement.z);
+    const auto track = std::ranges::lower_bound(seen, id, {}, &DetectedTrack::id);
+    if (track != seen.end() && track->id == id) place.box.extend(track->position);
+  }
+  exchange_tests_left_ = kMaxExchangeTests;
 }
 
 void PredictionScorer::refit_learnt_model() {
@@ -291,14 +303,17 @@ SceneSpeed PredictionScorer::scene_speed() const {
 }
 
 double PredictionScorer::exchanged_margin(const StoredPrediction& prediction, const Measurement& truth,
-                                          const History& own) const {
-  const Vec3 far = (truth.z - prediction.mixture[prediction.next].centre).cwiseAbs().array() + kFarApart;
+                                          const History& own) {
+  const Vec3& centre = prediction.mixture[prediction.next].centre;
+  const Vec3 far = (truth.z - centre).cwiseAbs().array() + kFarApart;
+  const Box near(centre - far, centre + far);
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& [id, other] : histories_) {
-    if (&other == &own || other.measurements.empty()) continue;
-    const Vec3 apart =
-        (nearest(other.measurements, truth.at).z - prediction.mixture[prediction.next].centre).cwiseAbs();
+  for (const auto& [box, history] : places_) {
+    const History& other = *history;
+    if (!near.intersects(box) || &other == &own || other.measurements.empty()) continue;
+    const Vec3 apart = (nearest(other.measurements, truth.at).z - centre).cwiseAbs();
     if ((apart.array() > far.array()).any()) continue;
+    if (exchange_tests_left_-- <= 0) break;
     const std::optional<Measurement> there = truth_at(other.measurements, truth.at);
     if (!there) continue;
     const double here = margin_for(prediction.mixture[prediction.next], *there, kEvaluatedAhead[prediction.next]);

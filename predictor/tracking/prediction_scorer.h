@@ -45,6 +45,10 @@ inline constexpr std::size_t kMinMovers = 16;
 /// A slower track does not count as moving, m/s.
 inline constexpr double kMinMovingSpeed = 0.5;
 
+/// The most exchanged tracks that one update() looks for. A flood of false detections holds more; there a track that
+/// was perhaps exchanged counts as a miss, which makes intervals wider.
+inline constexpr int kMaxExchangeTests = 20'000;
+
 /// The scores of one prediction.
 struct ScoredPrediction {
   TrackClass kind = TrackClass::New;
@@ -75,7 +79,7 @@ class PredictionScorer {
   explicit PredictionScorer(double confidence, bool learns = true);
 
   /// Takes one observation set. @pre sets come in order of time
-  /// @param seen  the tracks that were detected at `at`
+  /// @param seen  the tracks that were detected at `at`, ascending by id
   /// @param tracks  the ids of all existing tracks; all others are forgotten
   void update(UTime at, const std::vector<DetectedTrack>& seen, const std::set<std::int64_t>& tracks);
 
@@ -151,8 +155,13 @@ class PredictionScorer {
   /// track is where the other one was predicted. For a track that did not exist at prediction.at, only the first
   /// prediction must cover it. In both cases each box still contains an obstacle, so a plan that avoids both boxes is
   /// safe. Infinite if no other track fits. O(tracks).
-  [[nodiscard]] double exchanged_margin(const StoredPrediction& prediction, const Measurement& truth,
-                                        const History& own) const;
+  double exchanged_margin(const StoredPrediction& prediction, const Measurement& truth, const History& own);
+  /// A box that contains all measurements of a track.
+  struct Place {
+    Box box;
+    const History* history;
+  };
+  void note_places(const std::vector<DetectedTrack>& seen);
   [[nodiscard]] const History* find_history(std::int64_t id, UTime born) const;
   [[nodiscard]] double learnt_horizon_s(std::optional<std::size_t> group) const {
     return learns_ && group ? learnt_.horizon_s(*group) : 0.0;
@@ -165,6 +174,8 @@ class PredictionScorer {
   std::array<ModelScores, 3> pools_;  // slow tracks, fast tracks, all tracks
   LearntModel learnt_;
   std::map<std::int64_t, History> histories_;
+  std::vector<Place> places_;  // of histories_, during update()
+  int exchange_tests_left_ = 0;
   std::vector<ScoredPrediction> finished_;
   double max_axis_speed_ = 0.0;
   double max_speed_ = 0.0;         // norm, m/s

@@ -4,37 +4,17 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <utility>
 
 #include "predictor/tracking/matching.h"
+#include "predictor/tracking/resting_filters.h"
+#include "predictor/tracking/track_bound.h"
 
 namespace tern {
 namespace {
-
-std::array<AxisFilter, 3> start_filters(const Detection& detection, double speed_variance) {
-  std::array<AxisFilter, 3> axes;
-  for (int i = 0; i < 3; ++i) {
-    axes[static_cast<std::size_t>(i)] = {detection.position[i], 0.0, std::max(detection.variance[i], kMinVariance), 0.0,
-                                         speed_variance};
-  }
-  return axes;
-}
-
-void update_axes(std::array<AxisFilter, 3>& axes, const Detection& detection) {
-  for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].update(detection.position[i], detection.variance[i]);
-}
-
-Fit fit_of(const std::array<AxisFilter, 3>& axes, const Detection& detection) {
-  return fit(Vec3(axes[0].x, axes[1].x, axes[2].x), Vec3(axes[0].xx, axes[1].xx, axes[2].xx), detection.position,
-             detection.variance);
-}
-
-bool is_seen_at(const std::array<AxisFilter, 3>& place, const ObservationSet& set) {
-  return std::ranges::any_of(set.detections,
-                             [&](const Detection& d) { return fit_of(place, d).distance2 <= kAssociationGate; });
-}
 
 // The cost that different sizes add to a match.
 double size_cost(const Vec3& half, const Detection& detection) {
@@ -73,15 +53,15 @@ Tracker::Tracker(const TrackerConfig& config)
   }
 }
 
-UpdateOutcome Tracker::update(const ObservationSet& observations) {
+UpdateOutcome Tracker::update(const ObservationSet& observations, const Vec3& vehicle) {
   if (!steps_.empty() && observations.at + kReorderWindow < newest()) return UpdateOutcome::TooOld;
   const auto place =
       std::ranges::lower_bound(steps_, key(observations), {}, [](const Step& a) { return key(a.observations); });
   if (place != steps_.end() && key(place->observations) == key(observations)) return UpdateOutcome::Repeated;
-  auto step = steps_.insert(place, Step{observations, std::move(spare_)});
+  auto step = steps_.insert(place, Step{observations, vehicle, std::move(spare_)});
   for (; step != steps_.end(); ++step) {
     step->after = step == steps_.begin() ? before_steps_ : (step - 1)->after;
-    advance(step->after, step->observations);
+    advance(step->after, step->observations, step->vehicle);
   }
   while (steps_.size() > 1 && steps_.front().observations.at + kReorderWindow < newest()) {
     settle(steps_.front());
@@ -91,10 +71,10 @@ UpdateOutcome Tracker::update(const ObservationSet& observations) {
   return UpdateOutcome::Used;
 }
 
-void Tracker::advance(State& state, const ObservationSet& observations) const {
+void Tracker::advance(State& state, const ObservationSet& observations, const Vec3& vehicle) const {
   const UTime at = observations.at;
   std::erase_if(state.views, [&](const SensorView& view) { return view.sensor_id == observations.sensor_id; });
-  state.views.push_back({observations.sensor_id, at, observations.range_m, observations.sensor_position});
+  state.views.push_back({observations.sensor_id, at, observations.range_m, observations.sensor_position, 0});
   predict_to(state, at);
   const std::vector<Detection>& detections = observations.detections;
   const Matching matching = match(
@@ -119,16 +99,22 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
     if (dead && object.detections == 1 && !object.confirmed) ++state.existence.never;
     return dead;
   });
+  const std::vector<TrackedObject>& known = state.objects;
+  std::vector<TrackedObject> started;
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (matching.taken[d]) continue;
     const std::int64_t given = detections[d].track_id;
-    const bool known = given != kNoTrackId &&
-                       std::ranges::any_of(state.objects, [&](const TrackedObject& o) { return o.id == given; });
-    if (known) continue;
-    const std::int64_t id = given == kNoTrackId ? state.next_id++ : given;
-    state.objects.push_back(start_track(detections[d], observations, id));
+    if (given != kNoTrackId && std::ranges::binary_search(known, given, {}, &TrackedObject::id)) continue;
+    started.push_back(start_track(detections[d], observations, given == kNoTrackId ? state.next_id++ : given));
   }
-  std::ranges::sort(state.objects, [](const TrackedObject& a, const TrackedObject& b) { return a.id < b.id; });
+  std::ranges::move(started, std::back_inserter(state.objects));
+  // Objects are large: those that ascend already are not moved.
+  if (!std::ranges::is_sorted(state.objects, {}, &TrackedObject::id)) {
+    std::ranges::sort(state.objects, {}, &TrackedObject::id);
+  }
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  state.views.back().left_out = bound_tracks(state.objects, 0, kFirstOwnTrackId, kMaxNamedTracks, vehicle, at) +
+                                bound_tracks(state.objects, kFirstOwnTrackId, kLast, kMaxAnonymousTracks, vehicle, at);
 }
 
 void Tracker::predict_to(State& state, UTime at) const {
@@ -275,6 +261,14 @@ PredictionScorer::Assessment Tracker::assessment(const TrackedObject& object) co
 bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& existence) const {
   if (object.confirmed || object.detections > 1) return true;
   return object.age <= kMissesToHide && existence.real_share() > 1.0 - config_.prediction.confidence;
+}
+
+std::int32_t Tracker::left_out() const {
+  std::int32_t sum = 0;
+  for (const SensorView& view : newest_state().views) {
+    if (view.at + kReorderWindow >= newest()) sum += view.left_out;
+  }
+  return sum;
 }
 
 double Tracker::top_speed() const { return std::max(config_.prediction.max_speed, scorer_.max_axis_speed()); }

@@ -93,6 +93,8 @@ enum class UpdateOutcome {
 /// 2. It matches detections to tracks (matching.h), and updates the matched tracks.
 /// 3. It counts hits and misses, confirms and deletes tracks.
 /// 4. Each detection that is left starts a tentative track. Ids are common to all sensors.
+/// 5. If the tracks are more than kMaxAnonymousTracks or kMaxNamedTracks (track_bound.h), the farthest from the vehicle
+///    are deleted. left_out() counts those of them that were detected.
 ///
 /// Only the sensor that detected a track last can miss it, because sensors see different things at different rates. A
 /// set *counts* for a track if it is from that sensor or detects the track.
@@ -109,15 +111,19 @@ enum class UpdateOutcome {
 /// | stationary | the resting hypothesis fails                                     | filters restart |
 ///
 /// A pure function of the observations. Sets that come out of order within kReorderWindow give the same tracks as in
-/// order of (time, sensor). A set of d detections and t tracks costs O(d·t) and the assignment of its groups. Not
-/// thread-safe.
+/// order of (time, sensor). A set costs its matching (matching.h) and some microseconds per track. Not thread-safe.
 class Tracker {
  public:
   explicit Tracker(const TrackerConfig& config);
 
   /// Takes an observation set; only the outcome Used changes the tracker. @pre the time is not in the future: the
   /// tracker has no clock, and every older set would be TooOld
-  UpdateOutcome update(const ObservationSet& observations);
+  /// @param vehicle  W, m
+  UpdateOutcome update(const ObservationSet& observations, const Vec3& vehicle);
+  /// The same for a vehicle at the sensor.
+  UpdateOutcome update(const ObservationSet& observations) {
+    return update(observations, observations.sensor_position);
+  }
 
   /// Returns the tracks predicted from `now` over the horizon, of kind Estimated, ascending by id. They start at
   /// newest() if that is later than `now`.
@@ -135,6 +141,8 @@ class Tracker {
   [[nodiscard]] const RestRecord& rest() const { return newest_state().rest; }
   /// The time of the newest observation set; 0 if there is none.
   [[nodiscard]] UTime newest() const { return steps_.empty() ? UTime{} : steps_.back().observations.at; }
+  /// The detections in the newest sets of all sensors whose tracks were deleted because there are too many.
+  [[nodiscard]] std::int32_t left_out() const;
   /// True if the track is predicted at rest.
   [[nodiscard]] bool is_stationary(const TrackedObject& object) const;
   /// The weights of the models and the margins. They lag by kReorderWindow.
@@ -149,6 +157,7 @@ class Tracker {
     UTime at;
     double range_m = 0.0;  // 0: unlimited
     Vec3 from = Vec3::Zero();
+    std::int32_t left_out = 0;  // detections
   };
   struct State {
     UTime at;
@@ -160,10 +169,11 @@ class Tracker {
   };
   struct Step {
     ObservationSet observations;
+    Vec3 vehicle;
     State after;
   };
   [[nodiscard]] const State& newest_state() const { return steps_.empty() ? before_steps_ : steps_.back().after; }
-  void advance(State& state, const ObservationSet& observations) const;
+  void advance(State& state, const ObservationSet& observations, const Vec3& vehicle) const;
   void predict_to(State& state, UTime at) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from,

@@ -2,14 +2,28 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
+#include <vector>
 
 #include "core/base/random.h"
 
 namespace tern {
 namespace {
+
+std::vector<int> assign(const Eigen::MatrixXd& cost, double gate) {
+  std::vector<Pairing> pairings;
+  for (Eigen::Index r = 0; r < cost.rows(); ++r) {
+    for (Eigen::Index c = 0; c < cost.cols(); ++c) {
+      pairings.push_back({static_cast<std::size_t>(r), static_cast<std::size_t>(c), cost(r, c)});
+    }
+  }
+  return assign(static_cast<std::size_t>(cost.rows()), static_cast<std::size_t>(cost.cols()), pairings, gate);
+}
 
 double total(const Eigen::MatrixXd& cost, double gate, const std::vector<int>& column_of) {
   double sum = 0.0;
@@ -66,6 +80,20 @@ TEST(Assignment, MakesNoPairBeyondTheGate) {
   cost << 5.0, 25.0;
   EXPECT_EQ(assign(cost, 20.0), (std::vector<int>{0, kUnassigned}));
   EXPECT_EQ(assign(cost, 4.0), (std::vector<int>{kUnassigned, kUnassigned}));
+}
+
+TEST(Assignment, MakesTheCheapestPairsFirstInAGroupThatTheOptimumWouldTakeTooLongFor) {
+  constexpr Eigen::Index kMany = 400;
+  ASSERT_GT(2.0 * std::pow(kMany, 3), kMaxAssignmentSteps);
+  Rng rng(1);
+  Eigen::MatrixXd cost(kMany, kMany);
+  for (Eigen::Index i = 0; i < cost.size(); ++i) cost(i) = rng.uniform(0.0, 20.0);
+  Eigen::Index row = 0, column = 0;
+  cost.minCoeff(&row, &column);
+  const std::vector<int> column_of = assign(cost, 20.0);
+  EXPECT_EQ(column_of[static_cast<std::size_t>(row)], column);
+  EXPECT_EQ(std::set<int>(column_of.begin(), column_of.end()).size(), column_of.size()) << "each column once";
+  EXPECT_FALSE(std::ranges::count(column_of, kUnassigned));
 }
 
 TEST(Assignment, TakesNothingToAssign) {

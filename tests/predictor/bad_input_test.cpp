@@ -7,9 +7,11 @@
 #include <memory>
 #include <string>
 
+#include "core/world/message_limits.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
 #include "predictor/app/predictor_node.h"
+#include "predictor/tracking/track_bound.h"
 #include "runtime/virtual_runner.h"
 #include "tests/predictor/simulated_motion.h"
 
@@ -173,6 +175,47 @@ TEST_F(BadInput, SixHundredDetectionsAFrame) {
   EXPECT_EQ(late(), 0);
   EXPECT_GE(held(walker, 0.5, 3.0, 0.5), 0.99) << "it is not lost among them";
   EXPECT_GT(most_tracks(0.5, 3.0), 600U) << "what may be there is said";
+}
+
+TEST_F(BadInput, AFloodIsBoundedSaidAndCostsNoNearTrack) {
+  const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
+  watch(1.5, [&](double t) {
+    std::vector<Detection> detections{detection_of(walker(t), kNoise, rng_)};
+    while (detections.size() < kMaxDetections) {  // leaves on a wall: anywhere in each frame, near each other
+      const Vec3 leaf(rng_.uniform(3, 17), rng_.uniform(4.5, 5), rng_.uniform(0, 2));
+      detections.push_back(detection_of(leaf, kNoise, rng_));
+    }
+    return detections;
+  });
+  EXPECT_TRUE(says("overloaded: ")) << node_->health().waiting_for;
+  EXPECT_EQ(unheard(), 0);
+  ASSERT_FALSE(sets_.empty());
+  EXPECT_GT(sets_.back().left_out, 0);
+  EXPECT_LE(most_tracks(0.0, 1.5), kMaxAnonymousTracks);
+  EXPECT_GE(held(walker, 0.5, 1.5, 0.3), 0.99);
+}
+
+TEST_F(BadInput, ATrackThatReceiversWouldRefuseIsNotSentAndItsFieldIsNamed) {
+  const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0)), leaving = straight(Vec3(1e6 - 2.0, 0, 1), Vec3(1, 0, 0));
+  watch(1.9, [&](double t) {
+    return std::vector{detection_of(walker(t), kNoise, rng_), detection_of(leaving(t), 0.0, rng_)};
+  });
+  EXPECT_EQ(unheard(), 0);
+  EXPECT_TRUE(says("PREDICTIONS: not sent, since every receiver would refuse it: track "))
+      << node_->health().waiting_for;
+  EXPECT_TRUE(says("].c0.x is ") || says(".alpha.x is ")) << node_->health().waiting_for;
+  EXPECT_GT(sets_.back().left_out, 0);
+  EXPECT_GE(held(walker, 0.5, 1.9, 0.3), 0.99);
+}
+
+TEST_F(BadInput, TimesInSecondsAreSaidAndNotUsed) {
+  const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
+  watch(0.5, [&](double t) { return std::vector{detection_of(walker(t), kNoise, rng_)}; });
+  runner_.run(runner_.now() + Duration{20'000'000});
+  frame(UTime{runner_.now().us / 1'000'000}, {detection_of(walker(0.0), kNoise, rng_)}, 2);
+  runner_.run(runner_.now() + Duration{100'000});
+  EXPECT_TRUE(says("sensor 2: measured 2")) << node_->health().waiting_for;
+  EXPECT_EQ(unheard(), 0);
 }
 
 TEST_F(BadInput, IdsThatSwap) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 #include "core/base/random.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
+#include "runtime/lcm_network.h"
 #include "runtime/virtual_runner.h"
 #include "tests/predictor/simulated_motion.h"
 
@@ -449,6 +451,56 @@ TEST_F(PredictorNodeTest, CountsASetThatComesTwice) {
   run_for(0.1);
   EXPECT_EQ(late(channels::kObstacleObservations.name), 1);
   EXPECT_TRUE(says("sensor 1: two sets of one time")) << node_->health().waiting_for;
+}
+
+// A clock that the test moves, and that advances with each look: the time that a slow machine takes for a set.
+class SlowClock final : public Clock {
+ public:
+  [[nodiscard]] UTime now() const override { return now_ = now_ + each_look_; }
+  [[nodiscard]] UTime at_system_time(std::int64_t) const override { return now_; }
+  void take(Duration each_look) { each_look_ = each_look; }
+  void advance(Duration by) { now_ = now_ + by; }
+
+ private:
+  mutable UTime now_{10'000'000};
+  Duration each_look_{};
+};
+
+class Backlog : public ::testing::Test {
+ protected:
+  Backlog() {
+    for (int k = 0; k < 5; ++k) {
+      ObservationSet set;
+      set.at = clock_.now();
+      clock_.advance(Duration{33'000});
+      sensor_.publish(channels::kObstacleObservations, set);
+    }
+    drain(*lcm_, 100);
+  }
+  [[nodiscard]] std::int64_t late() const { return bus_.counters().at(channels::kObstacleObservations.name).late; }
+
+  SlowClock clock_;
+  std::shared_ptr<lcm::LCM> lcm_ = std::make_shared<lcm::LCM>("memq://");
+  Bus bus_{lcm_, clock_, 1}, sensor_{lcm_, clock_, 2};
+  PredictorNode node_{bus_, {}};
+};
+
+TEST_F(Backlog, SetsThatWaitedTooLongAreSkippedForNewerOnes) {
+  clock_.advance(kMaxWait + Duration{1'000});
+  node_.step(clock_.now());
+  EXPECT_EQ(late(), 4);
+  EXPECT_NE(node_.health().waiting_for.find("overloaded, sets are skipped"), std::string::npos);
+  EXPECT_EQ(node_.health().waiting_for.find("silent"), std::string::npos) << "the newest one was used";
+  EXPECT_GE(node_.next_wakeup(), clock_.now()) << "none waits any longer";
+}
+
+TEST_F(Backlog, AStepEndsAfterItsTimeAndTheRestFollows) {
+  clock_.take(kMaxWorkPerStep);
+  node_.step(clock_.now());
+  EXPECT_LE(node_.next_wakeup(), clock_.now()) << "sets still wait, but heartbeat and signals come first";
+  clock_.take(Duration{});
+  node_.step(clock_.now());
+  EXPECT_EQ(late(), 0) << "all were used";
 }
 
 }  // namespace
