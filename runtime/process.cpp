@@ -13,6 +13,7 @@
 
 #include "runtime/command_line.h"
 #include "runtime/lcm_network.h"
+#include "runtime/multicast_sockets.h"
 #include "runtime/scenario_file.h"
 #include "runtime/version.h"
 #include "runtime/wall_runner.h"
@@ -155,18 +156,21 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   const std::optional<KeyRing> keys = read_keys(options, description.name);
 
   const StopSignals stop;
-  const auto lcm = open_lcm(choose_lcm_url(options.lcm_url, std::getenv("LCM_DEFAULT_URL")));
+  const std::string url = choose_lcm_url(options.lcm_url, std::getenv("LCM_DEFAULT_URL"));
+  const auto lcm = open_lcm(url);
   if (!lcm) {
     spdlog::error("{}", lcm.error().message);
     return kExitNoNetwork;
   }
+  MulticastSockets sockets(url);
+  sockets.follow();
   Bus bus(*lcm, clock, epoch_us, options.channel_suffix, keys);
   ProcessContext context{scenario, section, bus, document};
   const std::unique_ptr<Node> node = make_node(context);
   NodeHost host(bus, *node, description.name, document.effective());
   spdlog::info("{} started{}{}", build_id(), keys ? ", signs and verifies messages" : "",
                options.pace == 1.0 ? "" : fmt::format(", at a pace of {}", options.pace));
-  const int code = run_on_wall_clock(**lcm, host, stop.fd());
+  const int code = run_on_wall_clock(**lcm, host, stop.fd(), &sockets);
   spdlog::info("exits with code {}", code);
   if (code == kExitStuck) end_at_once(code);
   return code;

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <spdlog/spdlog.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <lcm/lcm-cpp.hpp>
 #include <stdexcept>
@@ -21,8 +23,9 @@ namespace {
 constexpr int kMaxMessagesPerStep = 1'000;
 constexpr Duration kMaxTimePerStep{20'000};
 constexpr Duration kMaxTimeAtStop{100'000};  // after SIGTERM
-/// Longest sleep. A node that only reacts to messages has no wakeup (kNever).
-constexpr Duration kMaxSleep{1'000'000};
+/// Longest sleep, in the system's time: then interfaces and routes are looked at. A node that only reacts to messages
+/// has no wakeup (kNever).
+constexpr Duration kMaxSleep{100'000};
 
 /// Blocks until a descriptor is readable or the time has come. @return whether fds[1], the stop, is readable.
 bool wait(pollfd (&fds)[2], Duration sleep) {
@@ -44,10 +47,63 @@ void take_signal(int stop_fd) {
   }
 }
 
+/// Finds out that no message comes in, not even the own heartbeats.
+class HearingWatch {
+ public:
+  explicit HearingWatch(const Bus& bus) : bus_(bus), heard_at_(bus.clock().now()) {}
+  /// @return true once per kDeaf without a message in which several heartbeats were sent
+  /// @pre no message waits to be handled
+  bool is_deaf(UTime now) {
+    if (bus_.deliveries() != deliveries_) {
+      deliveries_ = bus_.deliveries();
+      begin(now);
+    }
+    if (now - heard_at_ <= kDeaf || heartbeats() < sent_ + kSeveral) return false;
+    begin(now);
+    return true;
+  }
+
+ private:
+  static constexpr Duration kDeaf{2'000'000};
+  static constexpr std::int64_t kSeveral = 3;
+  [[nodiscard]] std::int64_t heartbeats() const { return bus_.counters()[channels::kHeartbeat.name].sent; }
+  void begin(UTime now) {
+    heard_at_ = now;
+    sent_ = heartbeats();
+  }
+
+  const Bus& bus_;
+  UTime heard_at_;
+  std::int64_t deliveries_ = 0, sent_ = 0;
+};
+
+/// Adapts the sockets to the network every kMaxSleep.
+class NetworkKeeper {
+ public:
+  NetworkKeeper(MulticastSockets* sockets, const Bus& bus) : sockets_(sockets), bus_(bus), hearing_(bus) {}
+  /// @param is_quiet  no message waits to be handled
+  void keep(bool is_quiet) {
+    using Steady = std::chrono::steady_clock;
+    if (sockets_ == nullptr || Steady::now() < next_) return;
+    next_ = Steady::now() + std::chrono::microseconds(kMaxSleep.us);
+    sockets_->follow();
+    if (!is_quiet || !hearing_.is_deaf(bus_.clock().now())) return;
+    spdlog::warn("network: did not hear its own heartbeats for 2 s, joins the multicast group anew");
+    sockets_->join_anew();
+  }
+
+ private:
+  MulticastSockets* sockets_;
+  const Bus& bus_;
+  HearingWatch hearing_;
+  std::chrono::steady_clock::time_point next_{};
+};
+
 }  // namespace
 
-int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
+int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd, MulticastSockets* sockets) {
   const Clock& clock = host.bus().clock();
+  NetworkKeeper network(sockets, host.bus());
   pollfd fds[2] = {{lcm.getFileno(), POLLIN, 0}, {stop_fd, POLLIN, 0}};
   while (true) {
     drain(lcm, kMaxMessagesPerStep, kMaxTimePerStep);
@@ -65,6 +121,7 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
       host.bus().rethrow();
       return 0;
     }
+    network.keep(fds[0].revents == 0);
   }
 }
 

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <lcm/lcm-cpp.hpp>
+#include <string>
 
 #include "messages/codec.h"
 #include "runtime/version.h"
@@ -111,6 +113,38 @@ TEST_F(NetworkTest, TheSuffixMovesAProcessToOtherChannels) {
   second.subscribe(channels::kHeartbeat, [&](const Heartbeat&) { ++count; });
   EXPECT_TRUE(wait_for([&] { return count > 0; }));
   EXPECT_TRUE(beats.empty());
+}
+
+// The network of this test is its own (hermetic.sh), so it may change it.
+bool shell(const std::string& command) { return std::system(command.c_str()) == 0; }
+
+TEST_F(NetworkTest, AProcessGoesOnWhenTheRouteMovesAndWhenItIsLost) {
+  ASSERT_TRUE(
+      shell("ip link add wl0 type veth peer name wl1 && ip link add en0 type veth peer name en1 &&"
+            "for i in wl0 wl1 en0 en1; do ip link set $i up; done &&"
+            "ip addr add 192.168.77.2/24 dev wl0 && ip addr add 192.168.88.2/24 dev en0 &&"
+            "ip route del 224.0.0.0/4 dev lo && ip route add default dev wl0"));
+  Child child(echo());
+  EXPECT_TRUE(wait_until_ready());
+  send_goal(1);
+  EXPECT_TRUE(wait_for([&] { return answers.size() == 1; }));
+  // Wi-Fi is lost, and a cable is in.
+  EXPECT_TRUE(shell("ip route del default; ip link set wl0 down && ip route add default dev en0"));
+  const auto hears_again = [this](std::size_t beats_before) {
+    return wait_for([&] { return beats.size() >= beats_before + 3; });
+  };
+  EXPECT_TRUE(hears_again(beats.size())) << child.output;
+  send_goal(2);
+  EXPECT_TRUE(wait_for([&] { return answers.size() == 2; })) << "it hears on the other interface";
+  // No route is left: this host's processes go on by loopback.
+  EXPECT_TRUE(shell("ip route del default; ip link del en0"));
+  EXPECT_TRUE(hears_again(beats.size()));
+  EXPECT_TRUE(shell("ip link del wl0; ip route add 224.0.0.0/4 dev lo"));
+  send_goal(3);
+  EXPECT_TRUE(wait_for([&] { return answers.size() == 3; }));
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.wait(), 0) << child.output;
+  EXPECT_NE(child.output.find("no multicast route is left, messages go by the loopback interface"), std::string::npos);
 }
 
 TEST_F(NetworkTest, ANodeRunsOnTheWallClockUntilItFinishes) {
