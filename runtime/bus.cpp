@@ -1,7 +1,6 @@
 #include "runtime/bus.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cctype>
@@ -15,6 +14,7 @@
 #include "core/world/names.h"
 #include "messages/refused_field.h"
 #include "runtime/authentication.h"
+#include "runtime/log.h"
 #include "runtime/node.h"
 #include "runtime/sender_watch.h"
 
@@ -201,7 +201,7 @@ MessageName Bus::send(std::string_view name, const Encoder& encoder) {
   const int status = state_->lcm->publish(channel.wire_name, bytes.data(), static_cast<unsigned>(bytes.size()));
   if (status != 0) {
     if (const auto times = channel.send_log.admit(now)) {
-      spdlog::warn("{}: LCM could not send ({} times since the last report)", channel.wire_name, *times);
+      log::warn("{}: LCM could not send ({} times since the last report)", channel.wire_name, *times);
     }
   }
   return header.name;
@@ -278,8 +278,7 @@ void Bus::count_refused(ChannelState& channel, Rejection reason) {
   if (reason != Rejection::Sender && reason != Rejection::Future) channel.refused.add(clock_.now(), channel.why);
   if (reason == Rejection::Repeated) return;  // a network may duplicate messages
   if (const auto times = channel.reject_log.admit(clock_.now())) {
-    spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, channel.why,
-                 *times);
+    log::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, channel.why, *times);
   }
 }
 

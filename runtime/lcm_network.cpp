@@ -1,7 +1,6 @@
 #include "runtime/lcm_network.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -10,6 +9,8 @@
 #include <lcm/lcm-cpp.hpp>
 #include <optional>
 #include <string_view>
+
+#include "runtime/log.h"
 
 namespace tern {
 namespace {
@@ -46,12 +47,12 @@ void report_buffer(const std::string& url) {
   if (!requested) return;
   const auto granted = granted_buffer(*requested);
   if (!granted) {
-    spdlog::warn("LCM receive buffer: {} bytes requested, the granted size is unknown", *requested);
+    log::warn("LCM receive buffer: {} bytes requested, the granted size is unknown", *requested);
   } else if (*granted < *requested) {
-    spdlog::warn("LCM receive buffer: {} bytes requested, {} granted (more: sysctl -w net.core.rmem_max={})",
-                 *requested, *granted, *requested);
+    log::warn("LCM receive buffer: {} bytes requested, {} granted (more: sysctl -w net.core.rmem_max={})", *requested,
+              *granted, *requested);
   } else {
-    spdlog::info("LCM receive buffer: {} bytes granted", *granted);
+    log::info("LCM receive buffer: {} bytes granted", *granted);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <net/if.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -13,6 +12,8 @@
 #include <regex>
 #include <set>
 #include <utility>
+
+#include "runtime/log.h"
 
 namespace tern {
 namespace {
@@ -101,8 +102,8 @@ void MulticastSockets::follow() {
   if (by_loopback) from.s_addr = htonl(INADDR_LOOPBACK);
   const ip_mreqn way{{}, from, by_loopback ? static_cast<int>(if_nametoindex("lo")) : kNoInterface};
   for (const int s : send_) setsockopt(s, IPPROTO_IP, IP_MULTICAST_IF, &way, sizeof(way));
-  spdlog::warn("network: {}", by_loopback ? "no multicast route is left, messages go by the loopback interface"
-                                          : "there is a multicast route again, messages go by it");
+  log::warn("network: {}", by_loopback ? "no multicast route is left, messages go by the loopback interface"
+                                       : "there is a multicast route again, messages go by it");
 }
 
 void MulticastSockets::join_anew() {

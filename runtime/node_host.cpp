@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <string_view>
@@ -7,6 +6,7 @@
 #include "core/base/digest.h"
 #include "core/world/message_limits.h"
 #include "messages/codec.h"
+#include "runtime/log.h"
 #include "runtime/platform.h"
 #include "runtime/process.h"
 #include "runtime/version.h"
@@ -94,7 +94,7 @@ std::string NodeHost::report_drift() {
       fmt::format("the system's clock was set {} by {:.1f} ms since this process started: restart all processes",
                   drift < Duration{} ? "back" : "forward", magnitude(drift).seconds() * 1e3);
   if (magnitude(drift - reported_drift_) > kReportedDrift) {
-    spdlog::warn("{}", text);
+    log::warn("{}", text);
     reported_drift_ = drift;
   }
   return text;

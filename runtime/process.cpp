@@ -1,8 +1,6 @@
 #include "runtime/process.h"
 
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -13,6 +11,7 @@
 
 #include "runtime/command_line.h"
 #include "runtime/lcm_network.h"
+#include "runtime/log.h"
 #include "runtime/multicast_sockets.h"
 #include "runtime/scenario_file.h"
 #include "runtime/version.h"
@@ -106,17 +105,9 @@ void declare(CommandLine& app, Options& options, const ProcessDescription& descr
   if (description.add_options) description.add_options(app);
 }
 
-void start_log(const ProcessDescription& description, const std::string& level) {
-  // A process may be hosted several times in one test binary: the name is then taken already.
-  spdlog::drop(description.name);
-  spdlog::set_default_logger(spdlog::stderr_color_mt(description.name));
-  spdlog::set_pattern("%H:%M:%S.%e %n %^%l%$: %v");
-  spdlog::set_level(spdlog::level::from_str(level));
-}
-
 /// Ends without destructors, which would wait for the stuck thread while SIGTERM is blocked.
 [[noreturn]] void end_at_once(int code) {
-  spdlog::default_logger()->flush();
+  log::flush();
   std::_Exit(code);
 }
 
@@ -159,7 +150,7 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   const std::string url = choose_lcm_url(options.lcm_url, std::getenv("LCM_DEFAULT_URL"));
   const auto lcm = open_lcm(url);
   if (!lcm) {
-    spdlog::error("{}", lcm.error().message);
+    log::error("{}", lcm.error().message);
     return kExitNoNetwork;
   }
   MulticastSockets sockets(url);
@@ -168,10 +159,10 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   ProcessContext context{scenario, section, bus, document};
   const std::unique_ptr<Node> node = make_node(context);
   NodeHost host(bus, *node, description.name, document.effective());
-  spdlog::info("{} started{}{}", build_id(), keys ? ", signs and verifies messages" : "",
-               options.pace == 1.0 ? "" : fmt::format(", at a pace of {}", options.pace));
+  log::info("{} started{}{}", build_id(), keys ? ", signs and verifies messages" : "",
+            options.pace == 1.0 ? "" : fmt::format(", at a pace of {}", options.pace));
   const int code = run_on_wall_clock(**lcm, host, stop.fd(), &sockets);
-  spdlog::info("exits with code {}", code);
+  log::info("exits with code {}", code);
   if (code == kExitStuck) end_at_once(code);
   return code;
 }
@@ -192,14 +183,14 @@ int run_process(int argc, char** argv, const ProcessDescription& description, co
     print_knobs(description);
     return 0;
   }
-  start_log(description, options.log_level);
+  log::start(description.name, options.log_level);
   try {
     return run(options, description, make_node);
   } catch (const ConfigError& e) {
     fmt::print(stderr, "{}: {}\n", description.name, e.what());
     return kExitBadConfiguration;
   } catch (const std::exception& e) {
-    spdlog::critical("internal error: {}", e.what());
+    log::critical("internal error: {}", e.what());
     return kExitStuck;
   }
 }

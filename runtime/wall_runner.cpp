@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 #include <stdexcept>
 
 #include "runtime/lcm_network.h"
+#include "runtime/log.h"
 
 namespace tern {
 namespace {
@@ -88,7 +88,7 @@ class NetworkKeeper {
     next_ = Steady::now() + std::chrono::microseconds(kMaxSleep.us);
     sockets_->follow();
     if (!is_quiet || !hearing_.is_deaf(bus_.clock().now())) return;
-    spdlog::warn("network: did not hear its own heartbeats for 2 s, joins the multicast group anew");
+    log::warn("network: did not hear its own heartbeats for 2 s, joins the multicast group anew");
     sockets_->join_anew();
   }
 

@@ -1,6 +1,4 @@
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include "campaign/campaign.h"
 #include "campaign/recorded_flight.h"
 #include "runtime/command_line.h"
+#include "runtime/log.h"
 
 namespace tern {
 namespace {
@@ -24,7 +23,7 @@ struct Options {
 };
 
 int fly_one(const Options& options) try {
-  spdlog::set_default_logger(spdlog::stderr_color_st("tern"));  ///< standard output is for the result
+  log::start("tern", "info");  ///< standard output is for the result
   const FlightInputs inputs = inputs_of(options.flight);
   const CampaignIdentity identity = check_inputs(inputs, options.seed);
   std::filesystem::create_directories(options.folder);

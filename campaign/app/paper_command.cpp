@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -17,6 +16,7 @@
 #include "core/base/files.h"
 #include "runtime/command_line.h"
 #include "runtime/config.h"
+#include "runtime/log.h"
 
 namespace tern {
 namespace {
@@ -80,7 +80,7 @@ FlightTrack track_of(const SemanticCase& wanted) {
 }
 
 int corridor(const Options& options) {
-  spdlog::set_level(spdlog::level::warn);
+  log::start("tern", "warning");
   const std::string name = options.sweep ? "paper_6_2_sweep" : "paper_6_2";
   const std::string folder = options.out + "/" + name;
   std::filesystem::create_directories(folder);

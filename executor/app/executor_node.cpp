@@ -1,7 +1,6 @@
 #include "executor/app/executor_node.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "core/world/names.h"
 #include "executor/commanded_motion.h"
 #include "messages/codec.h"
+#include "runtime/log.h"
 #include "runtime/tick.h"
 
 namespace tern {
@@ -95,8 +95,8 @@ void ExecutorNode::check_tracking(const UavState& state) {
   if (outside) tube_.add_exit(state.at);
   if (!std::exchange(outside_tube_, outside) && outside) {
     ++tube_exits_;
-    spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
-                 error.x(), error.y(), error.z(), tube_exits_);
+    log::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
+              error.x(), error.y(), error.z(), tube_exits_);
   }
   if (lost) rejoin(state, true);
 }
@@ -112,7 +112,7 @@ void ExecutorNode::fall_silent(UTime now) {
 
 void ExecutorNode::drop_unsent_plan() {
   if (!executor_->drop_unsent_plan(last_setpoint_)) return;
-  spdlog::info("dropped the newest plan: no request has reported it to the vehicle");
+  log::info("dropped the newest plan: no request has reported it to the vehicle");
 }
 
 bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error) {
@@ -130,7 +130,7 @@ bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error)
 void ExecutorNode::on_estimate_shift(const std::optional<Vec3>& by) {
   if (!by || !has_followed_) return;  // before the first flight, a shift moves the frame W with it
   tube_.add_shift(*by);
-  spdlog::warn("the estimator has shifted the vehicle by ({:.2f}, {:.2f}, {:.2f}) m", by->x(), by->y(), by->z());
+  log::warn("the estimator has shifted the vehicle by ({:.2f}, {:.2f}, {:.2f}) m", by->x(), by->y(), by->z());
   if (!executor_ || !lost_.empty() || !is_commanded()) return;
   if (const auto refusal = guard_.check_reset(*by, bus_.received())) lose(*refusal);
 }
@@ -160,7 +160,7 @@ void ExecutorNode::rejoin(const UavState& state, bool counts) {
 
 void ExecutorNode::lose(const std::string& why) {
   lost_ = why;
-  spdlog::error("{}; no setpoints are sent any more", why);
+  log::error("{}; no setpoints are sent any more", why);
   following_ = false;
   stop_following();
 }
@@ -175,7 +175,7 @@ void ExecutorNode::begin(const UavState& state) {
   has_flown_ = has_flown_ || following_;
   yaw_follower_.emplace(state.yaw, state.at, config_.heading);
   publish_setpoint(state.at);
-  spdlog::info("begins with the vehicle at ({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
+  log::info("begins with the vehicle at ({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
 }
 
 void ExecutorNode::on_status(const VehicleStatus& status) {
@@ -206,13 +206,13 @@ void ExecutorNode::update_following(UTime now) {
     return refuse_start(why_not);
   if (why_not.empty() == following_) return;
   following_ = !following_;
-  spdlog::info("the vehicle {}", following_ ? "follows" : "does not follow: " + why_not);
+  log::info("the vehicle {}", following_ ? "follows" : "does not follow: " + why_not);
   if (!executor_) return;
   following_ ? start_following(now) : stop_following();
 }
 
 void ExecutorNode::refuse_start(const std::string& why) {
-  if (refused_start_.empty()) spdlog::error("does not start: {}", why);
+  if (refused_start_.empty()) log::error("does not start: {}", why);
   refused_start_ = why;
   executor_.reset();
   stationary_since_.reset();
@@ -242,8 +242,8 @@ void ExecutorNode::on_goal(const Goal& goal) {
     refused_goal_ = {goal.id, bus_.clock().now()};
   }
   if (goal_ && goal.id <= goal_->id) return;
-  spdlog::info("goal {}: mode {}, ({:.2f}, {:.2f}, {:.2f}) m", goal.id, to_string(goal.mode), goal.position.x(),
-               goal.position.y(), goal.position.z());
+  log::info("goal {}: mode {}, ({:.2f}, {:.2f}, {:.2f}) m", goal.id, to_string(goal.mode), goal.position.x(),
+            goal.position.y(), goal.position.z());
   goal_ = goal;
   next_goal_ = bus_.clock().now();
   if (executor_) executor_->set_mode(goal.mode);
@@ -257,8 +257,8 @@ void ExecutorNode::on_plan(const Plan& plan) {
   if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
   ++unlogged_refusals_;
   if (now < next_refusal_log_) return;
-  spdlog::warn("refused the plan for request {}: {} ({}); {} refused since the last such line", plan.request_id,
-               to_string(adoption), adoption.detail, unlogged_refusals_);
+  log::warn("refused the plan for request {}: {} ({}); {} refused since the last such line", plan.request_id,
+            to_string(adoption), adoption.detail, unlogged_refusals_);
   unlogged_refusals_ = 0;
   next_refusal_log_ = now + kRefusalLogPeriod;
 }
@@ -318,15 +318,15 @@ void ExecutorNode::publish_setpoint(UTime at) {
 
 void ExecutorNode::log_counters() const {
   const ExecutorCounters& counters = executor_->counters();
-  spdlog::info("requests {}, answered in time {}, unanswered {}, late {}, answered twice {}", counters.requests,
-               counters.answered_in_time, counters.unanswered, counters.late(), counters.answered_twice());
+  log::info("requests {}, answered in time {}, unanswered {}, late {}, answered twice {}", counters.requests,
+            counters.answered_in_time, counters.unanswered, counters.late(), counters.answered_twice());
   for (int k = 0; k < kVerdicts; ++k) {
     const auto verdict = static_cast<Verdict>(k);
-    if (counters.of(verdict) > 0) spdlog::info("plans {}: {}", to_string(verdict), counters.of(verdict));
+    if (counters.of(verdict) > 0) log::info("plans {}: {}", to_string(verdict), counters.of(verdict));
   }
   for (int k = 0; k < kBreaches; ++k) {
     const auto breach = static_cast<Breach>(k);
-    if (counters.of(breach) > 0) spdlog::info("  of these for {}: {}", to_string(breach), counters.of(breach));
+    if (counters.of(breach) > 0) log::info("  of these for {}: {}", to_string(breach), counters.of(breach));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "logger/app/logger_node.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <span>
@@ -9,6 +8,7 @@
 
 #include "flight_log/log_format.h"
 #include "messages/codec.h"
+#include "runtime/log.h"
 #include "runtime/roles.h"
 
 namespace tern {
@@ -35,7 +35,7 @@ LoggerConfig read_logger_config(ConfigSection section) {
 
 LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path)
     : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), bus_(bus), next_flush_(bus.clock().now()) {
-  spdlog::info("writing {}", writer_.part_path());
+  log::info("writing {}", writer_.part_path());
   bus.listen([this](std::string_view channel, std::int64_t system_us, std::span<const std::uint8_t> data) {
     // By the flight's clock, like all times in its messages.
     const UTime received = bus_.clock().at_system_time(system_us);
@@ -74,7 +74,7 @@ void LoggerNode::flush() {
   if (const std::int64_t lost = writer_.counters().unwritten; lost > 0) {
     trouble_ = fmt::format("{} messages are not in the log: {}", lost, writer_.trouble());
   }
-  if (was_well && !trouble_.empty()) spdlog::error("{}", trouble_);
+  if (was_well && !trouble_.empty()) log::error("{}", trouble_);
 }
 
 std::string LoggerNode::missing_configurations() const {
@@ -94,11 +94,11 @@ NodeHealth LoggerNode::health() const {
 
 void LoggerNode::report() const {
   const LogWriterCounters& counters = writer_.counters();
-  spdlog::info("{} messages, {:.1f} MB in {} file(s), {} not written, {} too large for a log", counters.written,
-               static_cast<double>(counters.bytes) * 1e-6, counters.parts, counters.unwritten, too_large_);
+  log::info("{} messages, {:.1f} MB in {} file(s), {} not written, {} too large for a log", counters.written,
+            static_cast<double>(counters.bytes) * 1e-6, counters.parts, counters.unwritten, too_large_);
   for (const auto& [channel, count] : table_.counts()) {
-    spdlog::info("{:<24} received {:>8}  lost {:>6}  refused {:>4}  {:>9.3f} MB", channel, count.received, count.lost,
-                 count.refused, static_cast<double>(count.bytes) * 1e-6);
+    log::info("{:<24} received {:>8}  lost {:>6}  refused {:>4}  {:>9.3f} MB", channel, count.received, count.lost,
+              count.refused, static_cast<double>(count.bytes) * 1e-6);
   }
 }
 

@@ -1,13 +1,13 @@
 #include "mavlink/app/mavlink_node.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "messages/codec.h"
+#include "runtime/log.h"
 
 namespace tern::mavlink {
 namespace {
@@ -56,8 +56,8 @@ MavlinkNode::~MavlinkNode() {
   next_status_ = bus_.clock().now();
   publish(next_status_);
   const bool landed = bridge_.stage() == Stage::Landed;
-  spdlog::log(landed ? spdlog::level::info : spdlog::level::err, "the autopilot {}",
-              landed ? "has landed" : "did not report that it has landed");
+  log::write(landed ? log::Level::Info : log::Level::Error, "the autopilot {}",
+             landed ? "has landed" : "did not report that it has landed");
 }
 
 void MavlinkNode::on_goal(const Goal& goal) {
@@ -85,7 +85,7 @@ bool MavlinkNode::end(UTime now) {
   asked_to_end_ = now;
   bridge_.land("asked to end");
   next_report_ = now + kReportPeriod;
-  if (is_needed()) spdlog::warn("asked to end: goes on until the vehicle is disarmed, unless asked again");
+  if (is_needed()) log::warn("asked to end: goes on until the vehicle is disarmed, unless asked again");
   return false;
 }
 
@@ -93,14 +93,14 @@ void MavlinkNode::finish_if_disarmed(UTime now) {
   const bool is_known = bridge_.autopilot().address() || now - begun_ > kFirstHeartbeat;
   if (exit_code_ || !is_known) return;
   if (!is_needed()) {
-    if (bridge_.stage() == Stage::Landed) spdlog::info("the autopilot has landed");
+    if (bridge_.stage() == Stage::Landed) log::info("the autopilot has landed");
     return finish(0);
   }
   const Duration silence = now - bridge_.autopilot().last_received();
   if (silence > kLinkPatience) return end_armed(fmt::format("no message for {:.0f} s", silence.seconds()));
   if (now < next_report_) return;
   next_report_ = now + kReportPeriod;
-  spdlog::warn("still {}: {}", bridge_.autopilot().armed() ? "armed" : "engaging", bridge_.status(now).why_not);
+  log::warn("still {}: {}", bridge_.autopilot().armed() ? "armed" : "engaging", bridge_.status(now).why_not);
 }
 
 void MavlinkNode::finish(int code) {
@@ -112,8 +112,8 @@ void MavlinkNode::finish(int code) {
 void MavlinkNode::end_armed(const std::string& why) {
   if (!is_needed()) return finish(0);
   finish(kExitArmed);
-  spdlog::critical("{}: ENDS WHILE THE VEHICLE IS ARMED in {} ({}); its pilot or its failsafe has it now", why,
-                   bridge_.autopilot().mode(), to_string(bridge_.stage()));
+  log::critical("{}: ENDS WHILE THE VEHICLE IS ARMED in {} ({}); its pilot or its failsafe has it now", why,
+                bridge_.autopilot().mode(), to_string(bridge_.stage()));
 }
 
 bool MavlinkNode::alone(UTime now) const {
@@ -137,8 +137,8 @@ void MavlinkNode::exchange(UTime now) {
 }
 
 void MavlinkNode::log_lines() {
-  for (const std::string& words : link_->take_log_lines()) spdlog::warn("{}", words);
-  for (const std::string& words : bridge_.take_log_lines()) spdlog::info("{}", words);
+  for (const std::string& words : link_->take_log_lines()) log::warn("{}", words);
+  for (const std::string& words : bridge_.take_log_lines()) log::info("{}", words);
 }
 
 void MavlinkNode::publish(UTime now) {

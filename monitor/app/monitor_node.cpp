@@ -1,7 +1,5 @@
 #include "monitor/app/monitor_node.h"
 
-#include <spdlog/spdlog.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +11,7 @@
 #include "monitor/app/subscribe_flight.h"
 #include "monitor/live_line.h"
 #include "runtime/config.h"
+#include "runtime/log.h"
 #include "runtime/version.h"
 
 namespace tern {

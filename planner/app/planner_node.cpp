@@ -1,7 +1,5 @@
 #include "planner/app/planner_node.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <tuple>
 
@@ -10,6 +8,7 @@
 #include "messages/codec.h"
 #include "planner/app/plan_stopwatch.h"
 #include "planner/problem/tuning.h"
+#include "runtime/log.h"
 #include "runtime/process.h"
 
 namespace tern {
@@ -93,9 +92,9 @@ void PlannerNode::check_workers(UTime now) {
   if (!failure) failure = intake_.failure();
   const bool stuck = stuck_at_ && now >= *stuck_at_ && worker_->busy();
   if (!failure && !stuck) return;
-  spdlog::critical("{}; this process exits with code {} to be restarted",
-                   failure ? "internal error in a worker: " + *failure : "the worker has missed two deadlines",
-                   kExitStuck);
+  log::critical("{}; this process exits with code {} to be restarted",
+                failure ? "internal error in a worker: " + *failure : "the worker has missed two deadlines",
+                kExitStuck);
   exit_code_ = kExitStuck;
 }
 

@@ -1,13 +1,13 @@
 #include "planner/app/world_intake.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <utility>
 
 #include "core/world/body.h"
 #include "messages/batching.h"
 #include "messages/channels.h"
+#include "runtime/log.h"
 
 namespace tern {
 
@@ -54,7 +54,7 @@ void WorldIntake::set_vehicle(const HorizonRequest& request) {
 }
 
 void WorldIntake::forget_before(std::int64_t epoch_us) {
-  spdlog::info("requests come from another vehicle: the previous vehicle's goal and static obstacles are discarded");
+  log::info("requests come from another vehicle: the previous vehicle's goal and static obstacles are discarded");
   statics_ = StaticTracks();
   if (const auto predictions = snapshot().predictions) statics_.add(predictions->set);
   const auto is_of_this_flight = [&](const std::optional<Goal>& goal) {
@@ -79,7 +79,7 @@ void WorldIntake::on_predictions(const TrackSet& batch) {
 void WorldIntake::on_map(const MapChunk& chunk) {
   const auto complete = assembler_.add(chunk);
   if (!complete) {
-    spdlog::warn("semantic map refused: {}", complete.error().message);
+    log::warn("semantic map refused: {}", complete.error().message);
     return;
   }
   if (*complete) pending_map_ = assembler_.take();
@@ -151,7 +151,7 @@ void WorldIntake::prepare() {
     std::string blocked;
     if (!field->path_from(at)) {
       blocked = fmt::format("goal {} is blocked: {}", goal.id, blocked_goal_text(*field, key, boxes, at, places_));
-      spdlog::warn("{}", blocked);
+      log::warn("{}", blocked);
     }
     note_blocked(std::move(blocked));
     publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names}));

@@ -1,7 +1,8 @@
 #include "predictor/app/input_watch.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
+
+#include "runtime/log.h"
 
 namespace tern {
 
@@ -17,7 +18,7 @@ void InputWatch::used(const std::string& input, UTime now) {
 
 void InputWatch::trouble(const std::string& kind, const std::string& text, UTime now) {
   const auto [found, is_new] = troubles_.try_emplace(kind);
-  if (is_new || now - found->second.at > kTroubleReported) spdlog::warn("{}", text);
+  if (is_new || now - found->second.at > kTroubleReported) log::warn("{}", text);
   found->second = {text, now};
 }
 

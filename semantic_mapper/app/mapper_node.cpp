@@ -1,7 +1,6 @@
 #include "semantic_mapper/app/mapper_node.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 
 #include "messages/codec.h"
+#include "runtime/log.h"
 #include "semantic_mapper/app/load_map.h"
 
 namespace tern {
@@ -53,13 +53,13 @@ void MapperNode::step(UTime now) {
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
   const LoadedMap loaded = load_map(context.scenario, read_mapper_config(context.section), std::getenv("TERN_DATA"));
   for (const MapRemark& remark : loaded.remarks) {
-    spdlog::log(remark.is_warning ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
+    log::write(remark.is_warning ? log::Level::Warning : log::Level::Info, "{}", remark.text);
   }
   const VoxelMap& map = loaded.map;
   const auto count = count_labels(map);
-  spdlog::info("map {:016x}: {} × {} × {} voxels of {} m: {} occupied, {} attractive, {} repulsive, {} unknown",
-               map.version, map.grid.size.x(), map.grid.size.y(), map.grid.size.z(), map.grid.resolution, count[2],
-               count[3], count[4], count[0]);
+  log::info("map {:016x}: {} × {} × {} voxels of {} m: {} occupied, {} attractive, {} repulsive, {} unknown",
+            map.version, map.grid.size.x(), map.grid.size.y(), map.grid.size.z(), map.grid.resolution, count[2],
+            count[3], count[4], count[0]);
   try {
     return std::make_unique<MapperNode>(context.bus, map);
   } catch (const std::invalid_argument& e) {

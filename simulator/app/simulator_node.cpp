@@ -1,7 +1,6 @@
 #include "simulator/app/simulator_node.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "core/world/names.h"
 #include "executor/commanded_motion.h"
 #include "messages/codec.h"
+#include "runtime/log.h"
 #include "runtime/tick.h"
 #include "simulator/vehicle/external_vehicle.h"
 
@@ -146,13 +146,13 @@ void SimulatorNode::wait_for_processes(UTime now) {
     world_zero_ = whole_ms(now + (config_.declare ? kCountdown : kLookAroundTime));
     next_status_ = std::min(next_status_, *world_zero_);
     broadcast_.start(*world_zero_, now);
-    spdlog::info("all processes are ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
+    log::info("all processes are ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
     const double from_s = config_.declare ? 0.0 : -kLookAroundTime.seconds();
     for (const std::string& name : referee_.passing_the_start(from_s)) {
-      spdlog::warn("{} passes through the waiting vehicle: contacts count from world time 0", name);
+      log::warn("{} passes through the waiting vehicle: contacts count from world time 0", name);
     }
     if (const std::string clocks = gate_.clocks(); !clocks.empty()) {
-      spdlog::info("clock differences from the vehicle: {}", clocks);
+      log::info("clock differences from the vehicle: {}", clocks);
     }
   } else if (now >= give_up_at_) {
     FlightResult result = referee_.result_so_far();
@@ -164,24 +164,24 @@ void SimulatorNode::wait_for_processes(UTime now) {
 void SimulatorNode::on_heartbeat(const Heartbeat& heartbeat) {
   gate_.receive(heartbeat, bus_.received());
   const std::string skewed = gate_.skewed();
-  if (!skewed.empty() && !logged_skewed_) spdlog::error("{}", skewed);
+  if (!skewed.empty() && !logged_skewed_) log::error("{}", skewed);
   logged_skewed_ = !skewed.empty();
 }
 
 void SimulatorNode::on_map(const MapChunk& chunk) {
   const Result<bool> complete = map_.add(chunk);
-  if (!complete) return spdlog::error("map {:016x}: {}", chunk.version, complete.error().message);
+  if (!complete) return log::error("map {:016x}: {}", chunk.version, complete.error().message);
   if (!*complete) return;
   if (const auto taken = referee_.set_map(cover_with_boxes(map_.take(), false)); !taken) {
-    return spdlog::error("map {:016x} is not judged: {}", chunk.version, taken.error().message);
+    return log::error("map {:016x} is not judged: {}", chunk.version, taken.error().message);
   }
   needs_map_ = false;
 }
 
 void SimulatorNode::on_goal(const Goal& goal) {
   if (goal_ && goal.id <= goal_->id) return;
-  spdlog::info("goal {}: mode {}, ({:.2f}, {:.2f}, {:.2f}) m", goal.id, static_cast<int>(goal.mode), goal.position.x(),
-               goal.position.y(), goal.position.z());
+  log::info("goal {}: mode {}, ({:.2f}, {:.2f}, {:.2f}) m", goal.id, static_cast<int>(goal.mode), goal.position.x(),
+            goal.position.y(), goal.position.z());
   take_goal(goal);
 }
 
@@ -260,8 +260,7 @@ void SimulatorNode::end_flight(const FlightResult& result, int exit_code, UTime 
   exit_code_ = exit_code;
   results_left_ = kResults;
   next_result_ = next_status_ = now;
-  spdlog::info("flight ended: {} {} after {:.2f} s", to_string(result_->outcome), result_->detail,
-               result_->flight_time_s);
+  log::info("flight ended: {} {} after {:.2f} s", to_string(result_->outcome), result_->detail, result_->flight_time_s);
 }
 
 NodeHealth SimulatorNode::health() const {

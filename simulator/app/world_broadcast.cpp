@@ -1,7 +1,6 @@
 #include "simulator/app/world_broadcast.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "messages/codec.h"
 #include "runtime/config.h"
 #include "runtime/data_folder.h"
+#include "runtime/log.h"
 #include "runtime/tick.h"
 #include "simulator/worlds/declared_motions.h"
 
@@ -168,7 +168,7 @@ void WorldBroadcast::report_left_out(std::int32_t left_out, std::size_t of) {
   const bool is_new = left_out > 0 && trouble_.empty();
   trouble_.clear();
   if (left_out > 0) trouble_ = fmt::format("{} of {} motions do not fit into DECLARED_MOTIONS", left_out, of);
-  if (is_new) spdlog::warn("{}: the farthest motions are left out", trouble_);
+  if (is_new) log::warn("{}: the farthest motions are left out", trouble_);
 }
 
 void WorldBroadcast::publish_truth(UTime now) {

@@ -1,13 +1,13 @@
 #include "viewer/bridge/app/export_node.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cstdlib>
 
 #include "core/base/files.h"
 #include "runtime/command_line.h"
 #include "runtime/config.h"
+#include "runtime/log.h"
 #include "viewer/bridge/app/export_page.h"
 #include "viewer/bridge/app/film.h"
 
@@ -24,7 +24,7 @@ class DoneNode final : public Node {
 
 void write(const std::string& html, const std::string& file) {
   if (!write_text(file, html)) throw ConfigError(file + " cannot be written");
-  spdlog::info("{}: {:.1f} MB", file, static_cast<double>(html.size()) * 1e-6);
+  log::info("{}: {:.1f} MB", file, static_cast<double>(html.size()) * 1e-6);
 }
 
 }  // namespace
@@ -76,11 +76,11 @@ std::unique_ptr<Node> make_viewer(Bus& bus, const Scenario& scenario, const View
   const ExportedPage page = value_or_throw(export_page({options.log, options.ghost, bus.suffix(), options.page}));
   if (!options.export_to.empty()) {
     write(page.html, options.export_to);
-    if (!page.left_out.empty()) spdlog::warn("{} are left out: too large", page.left_out);
+    if (!page.left_out.empty()) log::warn("{} are left out: too large", page.left_out);
   }
   if (!options.video_to.empty()) {
     value_or_throw(make_film({page, options.video_to, options.film}));
-    spdlog::info("{} is written", options.video_to);
+    log::info("{} is written", options.video_to);
   }
   return std::make_unique<DoneNode>();
 }

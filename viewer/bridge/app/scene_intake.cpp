@@ -1,12 +1,11 @@
 #include "viewer/bridge/app/scene_intake.h"
 
-#include <spdlog/spdlog.h>
-
 #include <tuple>
 #include <type_traits>
 
 #include "messages/batching.h"
 #include "messages/codec.h"
+#include "runtime/log.h"
 
 namespace tern {
 
@@ -47,7 +46,7 @@ void SceneIntake::take(const Channel<T>& channel, const T& message, UTime at) {
     if (auto batches = tracks_.add(message)) scene_.receive(join_batches(std::move(*batches)));
   } else if constexpr (std::is_same_v<T, MapChunk>) {
     const auto complete = maps_.add(message);
-    if (!complete) spdlog::warn("{}", complete.error().message);
+    if (!complete) log::warn("{}", complete.error().message);
     if (complete && *complete) scene_.receive(maps_.take());
   } else if constexpr (std::is_same_v<T, UavState>) {
     const bool is_truth = std::string_view(channel.name) == kVehicleTruth.name;

@@ -1,6 +1,5 @@
 #include "viewer/bridge/app/viewer_node.h"
 
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -9,6 +8,7 @@
 
 #include "messages/codec.h"
 #include "runtime/config.h"
+#include "runtime/log.h"
 #include "runtime/version.h"
 #include "viewer/bridge/app/listening_socket.h"
 #include "viewer/bridge/json_writer.h"
@@ -59,8 +59,8 @@ ViewerNode::ViewerNode(Bus& bus, const Scenario& scenario, ViewerOptions options
 
 ViewerNode::~ViewerNode() {
   const WebCounters counters = server_->counters();
-  spdlog::info("{} frames sent, {} texts dropped for slow pages, {} requests refused, {} commands dropped",
-               counters.frames, counters.dropped, counters.refused, counters.commands_dropped);
+  log::info("{} frames sent, {} texts dropped for slow pages, {} requests refused, {} commands dropped",
+            counters.frames, counters.dropped, counters.refused, counters.commands_dropped);
 }
 
 void ViewerNode::listen() {
@@ -72,7 +72,7 @@ void ViewerNode::listen() {
   names.push_back(host_of_url(url_));
   PageFiles files = value_or_throw(load_page(options_.page.empty() ? default_page_folder() : options_.page));
   server_ = std::make_unique<WebServer>(fd, std::move(files), Access(std::move(names)), board_);
-  spdlog::info("the page is at {}", url_);
+  log::info("the page is at {}", url_);
   if (!options_.url_file.empty()) std::ofstream(options_.url_file) << url_ << '\n';
 }
 
@@ -173,8 +173,8 @@ void ViewerNode::execute(std::int64_t client, const GoalCommand& command, UTime 
     goal.position = command.position;
     page_goal_.set(goal, scene_, now);
     repeat_goal(now);
-    spdlog::info("a page sent goal {}: {:.2f}, {:.2f}, {:.2f}", goal.id, goal.position.x(), goal.position.y(),
-                 goal.position.z());
+    log::info("a page sent goal {}: {:.2f}, {:.2f}, {:.2f}", goal.id, goal.position.x(), goal.position.y(),
+              goal.position.z());
     json.key("sent").integer(goal.id);
   }
   server_->reply(client, json.end_object().end_object().take());

@@ -1,7 +1,5 @@
 #include "viewer/bridge/app/web_server.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <atomic>
 #include <boost/asio/io_context.hpp>
@@ -19,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/log.h"
 #include "viewer/bridge/app/listening_socket.h"
 
 namespace tern {
@@ -248,7 +247,7 @@ struct WebServer::Impl {
   void accept() {
     acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
       if (error) {
-        spdlog::warn("a browser could not be accepted: {}", error.message());
+        log::warn("a browser could not be accepted: {}", error.message());
       } else if (shared.connections < kMaxConnections) {
         std::make_shared<Connection>(shared, std::move(socket))->read();
       } else {
