@@ -1,4 +1,3 @@
-
 #include <memory>
 
 #include "runtime/command_line.h"
@@ -27,7 +26,7 @@ int main(int argc, char** argv) {
     auto config = tern::read_simulator_config(context.section, scenario.seed);
     if (recorded) config.wait_for.emplace_back(tern::kRecorder);
     auto world = tern::flyable_world_of(scenario, config);
-    for (const std::string& remark : world.remarks) log::warn("{}", remark);
+    for (const std::string& remark : world.remarks) tern::log::warn("{}", remark);
     auto vehicle = tern::make_vehicle(scenario, config, context.bus.clock().now());
     return std::make_unique<tern::SimulatorNode>(context.bus, scenario, std::move(world), std::move(vehicle), config);
   });
