@@ -22,20 +22,20 @@ struct wire::Form<FlightResult> {
   static constexpr double kMaxClearance = 10.0 * kMaxCoordinate;  // m
 
   static void fields(auto& io, auto& m, auto& result) {
-    const auto measure = [&io](auto& field, auto& x, double low, double high) {
-      std::isnan(field) ? io.any(field, x) : io.number(field, x, low, high);
+    const auto measure = [&io](const char* name, auto& field, auto& x, double low, double high) {
+      std::isnan(field) ? io.any(name, field, x) : io.number(name, field, x, low, high);
     };
     io.header("header", m.header, result.header);
     io.enumeration("outcome", m.outcome, result.outcome, FlightOutcome::Failed);
     io.text("detail", m.detail, result.detail);
-    measure(m.flight_time, result.flight_time_s, 0.0, kMaxSeconds);
-    measure(m.first_entry, result.first_entry_s, 0.0, kMaxSeconds);
-    measure(m.path_length, result.path_length_m, 0.0, kMaxPath);
-    measure(m.mean_speed, result.mean_speed_mps, 0.0, kMaxSpeed);
-    measure(m.top_speed, result.top_speed_mps, 0.0, kMaxSpeed);
-    measure(m.min_clearance, result.min_clearance_m, -kMaxClearance, kMaxClearance);
-    measure(m.min_map_clearance, result.min_map_clearance_m, -kMaxClearance, kMaxClearance);
-    measure(m.jerk_integral, result.jerk_integral, 0.0, kMaxNumber);
+    measure("flight_time", m.flight_time, result.flight_time_s, 0.0, kMaxSeconds);
+    measure("first_entry", m.first_entry, result.first_entry_s, 0.0, kMaxSeconds);
+    measure("path_length", m.path_length, result.path_length_m, 0.0, kMaxPath);
+    measure("mean_speed", m.mean_speed, result.mean_speed_mps, 0.0, kMaxSpeed);
+    measure("top_speed", m.top_speed, result.top_speed_mps, 0.0, kMaxSpeed);
+    measure("min_clearance", m.min_clearance, result.min_clearance_m, -kMaxClearance, kMaxClearance);
+    measure("min_map_clearance", m.min_map_clearance, result.min_map_clearance_m, -kMaxClearance, kMaxClearance);
+    measure("jerk_integral", m.jerk_integral, result.jerk_integral, 0.0, kMaxNumber);
     io.counter("stops", m.stops, result.stops);
     io.counter("limit_violations", m.limit_violations, result.limit_violations);
     io.counter("contacts_moving", m.contacts_moving, result.contacts_moving);

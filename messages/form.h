@@ -29,6 +29,7 @@ template <class T>
 T read_fields(FieldReader& read, const typename Form<T>::Message& message) {
   T value;
   Form<T>::fields(read, message, value);
+  read.leave();
   if constexpr (requires { Form<T>::read_rest(read, message, value); }) Form<T>::read_rest(read, message, value);
   return value;
 }

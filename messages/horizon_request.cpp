@@ -48,16 +48,18 @@ struct wire::Form<HorizonRequest> {
   }
 
   static void dynamics_fields(auto& io, auto& m, auto& dynamics) {
-    const auto within = [&io](auto& field, auto& x, const Range& range) { io.number(field, x, range.low, range.high); };
-    within(m.thrust_min, dynamics.thrust_min, Dynamics::kThrustMin);
-    within(m.thrust_max, dynamics.thrust_max, Dynamics::kThrustMax);
-    within(m.tilt_max_deg, dynamics.tilt_max_deg, Dynamics::kTilt);
-    within(m.body_rate_max_deg_s, dynamics.body_rate_max_deg_s, Dynamics::kBodyRate);
+    const auto within = [&io](const char* name, auto& field, auto& x, const Range& range) {
+      io.number(name, field, x, range.low, range.high);
+    };
+    within("thrust_min", m.thrust_min, dynamics.thrust_min, Dynamics::kThrustMin);
+    within("thrust_max", m.thrust_max, dynamics.thrust_max, Dynamics::kThrustMax);
+    within("tilt_max_deg", m.tilt_max_deg, dynamics.tilt_max_deg, Dynamics::kTilt);
+    within("body_rate_max_deg_s", m.body_rate_max_deg_s, dynamics.body_rate_max_deg_s, Dynamics::kBodyRate);
   }
 
   static void write_rest(Message& m, const HorizonRequest& request) {
     FieldWriter write;
-    write.flag(m.has_dynamics, request.limits.dynamics.has_value());
+    write.flag("has_dynamics", m.has_dynamics, request.limits.dynamics.has_value());
     if (request.limits.dynamics) dynamics_fields(write, m, *request.limits.dynamics);
   }
 

@@ -88,8 +88,8 @@ struct wire::Form<Plan> {
   }
 
   static void read_rest(FieldReader& read, const Message& m, Plan& plan) {
-    const std::int64_t standing = read.counter(m.standing);
-    if (read.flag(m.from_watchdog)) {
+    const std::int64_t standing = read.named("standing").counter(m.standing);
+    if (read.named("from_watchdog").flag(m.from_watchdog)) {
       plan.standing = standing;
     } else {
       read.consistent(standing == 0);

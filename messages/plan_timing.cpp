@@ -10,13 +10,13 @@ struct wire::Form<PlanTiming> {
   static constexpr Layout<Message> kLayout{};
 
   static void fields(auto& io, auto& m, auto& timing) {
-    const auto milliseconds = [&io](auto& field, auto& x) { io.number(field, x, 0.0, 1e9); };
+    const auto milliseconds = [&io](const char* name, auto& field, auto& x) { io.number(name, field, x, 0.0, 1e9); };
     io.header("header", m.header, timing.header);
     io.integer("request_id", m.request_id, timing.request_id, 1, kMaxCounter);
-    milliseconds(m.total_ms, timing.total_ms);
-    milliseconds(m.first_answer_ms, timing.first_answer_ms);
-    milliseconds(m.cpu_ms, timing.cpu_ms);
-    for (int stage = 0; stage < kStages; ++stage) milliseconds(m.stage_ms[stage], timing.stage_ms[stage]);
+    milliseconds("total_ms", m.total_ms, timing.total_ms);
+    milliseconds("first_answer_ms", m.first_answer_ms, timing.first_answer_ms);
+    milliseconds("cpu_ms", m.cpu_ms, timing.cpu_ms);
+    for (int stage = 0; stage < kStages; ++stage) milliseconds("stage_ms", m.stage_ms[stage], timing.stage_ms[stage]);
     io.counter("expansions", m.expansions, timing.expansions);
     io.counter("hulls", m.hulls, timing.hulls);
     io.counter("pairs_by_index", m.pairs_by_index, timing.pairs_by_index);

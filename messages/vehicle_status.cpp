@@ -31,7 +31,7 @@ struct wire::Form<VehicleStatus> {
   static void write_rest(Message& m, const VehicleStatus& status) { m.battery = status.battery.value_or(kUnknown); }
 
   static void read_rest(FieldReader& read, const Message& m, VehicleStatus& status) {
-    if (m.battery != kUnknown) status.battery = read.number(m.battery, 0.0, 1.0);
+    if (m.battery != kUnknown) status.battery = read.named("battery").number(m.battery, 0.0, 1.0);
     read.consistent(!status.following || status.armed);
     read.consistent(status.following == status.why_not.empty());
   }
