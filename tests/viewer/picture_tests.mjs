@@ -44,8 +44,8 @@ await run({
     const { lines, far } = await page.evaluate(() => {
       const { scene } = window.tern.world;
       const { hulls } = window.tern.known.hulls;
-      const drawn = scene.children.find((child) => child.isLineSegments && child.visible && child.material.color?.getHex() === 0xc2ef6b);
-      return { lines: drawn?.geometry.attributes.position.count ?? 0, far: Math.max(...hulls.map((hull) => hull.interval)) };
+      const drawn = scene.getObjectByName('hulls');
+      return { lines: drawn.isLineSegments ? drawn.geometry.attributes.position.count : 0, far: Math.max(...hulls.map((hull) => hull.interval)) };
     });
     expect(`intervals of 0.2 s, the last one ${far}`, far === 4);
     const { hulls } = await status(page);

@@ -31,6 +31,7 @@ export class Proofs {
     // Outlines: many translucent faces, seen from within, would be fog.
     this.hulls = new THREE.LineSegments(
       new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: palette.hull, transparent: true, opacity: 0.6, depthWrite: false }));
+    this.hulls.name = 'hulls';
     this.planes = new THREE.Group();
     this.patches = new THREE.Mesh(new THREE.BufferGeometry(), translucent(palette.plane, 0.18));
     this.frames = new THREE.LineSegments(
