@@ -20,7 +20,7 @@ inline constexpr Duration kSetpointSilence{100'000};
 /// | time                                | command                                                                 |
 /// |-------------------------------------|-------------------------------------------------------------------------|
 /// | between two setpoints               | the cubic of the first (p, v, a, j)                                     |
-/// | the same, a setpoint was lost       | the committed trajectory, if it passes through both and the cubic fails |
+/// | the same, a setpoint was lost       | the committed trajectory, if it alone passes through both               |
 /// | after the newest setpoint           | the committed trajectory, if it passes within kJoinTolerance of it      |
 /// | the same, it does not pass          | the setpoint's cubic for 20 ms, then braking_trajectory()               |
 ///
@@ -42,8 +42,8 @@ class CommandedMotion {
   /// | a departure: any other                                | ignored; setpoints that continue it are accepted    |
   /// | a departure of > 0.1 m after kSetpointSilence         | the same, once the departure has lasted for 0.5 s   |
   ///
-  /// So no single message makes the vehicle jump. Within the 0.5 s, an executor that sees where the vehicle is leads it
-  /// on from there.
+  /// So no single message makes the vehicle jump. An executor that receives UAV_STATE needs less than the 0.5 s to
+  /// continue from the vehicle's position instead.
   void receive(const UavState& setpoint);
   /// Takes HORIZON_REQUEST.committed. A trajectory that starts after all earlier ones is appended if
   /// - it joins them, or
@@ -53,8 +53,9 @@ class CommandedMotion {
   /// A trajectory that starts earlier, after settled().end() and on the current command, replaces the later segments:
   /// the executor leads the vehicle on from there.
   void receive(const TimedSpline& committed);
-  /// Takes a PLAN. A HORIZON_REQUEST reports its adoption up to one request period later. If the plan joins the
-  /// command, acceleration_ahead() uses it until then, or until its start. The command itself waits for the adoption.
+  /// Takes a PLAN. The command does not change until a HORIZON_REQUEST reports that the plan was adopted, up to one
+  /// request period later. If the plan joins the command, acceleration_ahead() uses it until that report, or until the
+  /// plan starts.
   void receive(const Plan& plan);
 
   /// The command at any t. After settled().end() it is the command without another setpoint.

@@ -27,12 +27,14 @@ struct ExecutorConfig {
   template <typename V>
   void visit(V& v) {
     v("rate_hz", rate_hz, Range{1e-3, 100.0}, "largest number of requests per second");
-    v("lead_s", lead, Range{0.01, 2.0}, "t_s − time of the request, s; the planner has 5 ms less than this");
+    v("lead_s", lead, Range{0.01, 2.0},
+      "time from a request to the start of its plan, s; the planner has 5 ms less than this");
     v("tube_m", tube_m, Range{0.0, kMaxTube},
       "smallest tube of a request, m per axis: how far the vehicle may be from its setpoints; a larger measured tube "
       "replaces it");
     v("start_reach_m", start_reach_m, Range{0.1, 1e5},
-      "farthest that the vehicle may be from `uav.start` when it first follows, m; else frame or unit are wrong");
+      "largest distance of the vehicle from `uav.start` when it first follows, m. At a larger one it is refused, "
+      "because a frame or a unit must be wrong");
     v("heading", heading);
   }
 };

@@ -35,7 +35,7 @@ std::string result_text(std::uint8_t mav_result);
 
 /// Collects what an autopilot reports. Pure: frames and receive times in.
 ///
-/// The first HEARTBEAT of an autopilot (component 1) decides which system is meant. Frames of any other system or
+/// The sender of the first HEARTBEAT of an autopilot (component 1) is the autopilot. Frames of any other system or
 /// component are counted and ignored.
 class Autopilot {
  public:
@@ -76,8 +76,8 @@ class Autopilot {
   /// Whether EXTENDED_SYS_STATE reports a take-off.
   [[nodiscard]] bool taking_off() const { return taking_off_; }
   [[nodiscard]] std::optional<double> battery() const { return battery_; }  ///< [0, 1]
-  /// Lost: without position or velocity for kFaultPasses, or from the start. A shorter gap counts as Degraded: an input
-  /// fault clears a PX4's flags for a moment while the position is good.
+  /// Lost: position or velocity has been missing for kFaultPasses, or from the start. A shorter gap counts as Degraded:
+  /// an input fault clears a PX4's flags for a moment while the position is good.
   [[nodiscard]] EstimatorHealth estimator() const;
   [[nodiscard]] Vec3 sigma() const;  ///< the estimator's accuracy per axis, m; 0: not reported
   [[nodiscard]] const ClockFit& clock() const { return clock_; }

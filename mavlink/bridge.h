@@ -69,15 +69,15 @@ const char* to_string(Stage stage);
 ///
 /// A restarted bridge passes through Waiting and Ready to Following if the vehicle flies in the following mode. It
 /// sends no setpoint in Waiting, so the first one is at the present estimate. The first SETPOINT is its command at
-/// once. SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
-/// vehicle is commanded to stop, with a dead estimate at the place of the last setpoint, and VEHICLE_STATUS reports
-/// *not following*.
+/// once.
 ///
-/// While the estimate is apart from external vision (VisionCheck), the vehicle is commanded to stay where the autopilot
-/// estimates it at each moment. Any other setpoint would move it.
+/// SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
+/// vehicle is commanded to stop, and VEHICLE_STATUS reports *not following*. With a dead estimate it is to stop at the
+/// last setpoint. While the estimate is apart from external vision (VisionCheck), the vehicle is commanded to stay where
+/// the autopilot estimates it at each moment. Any other setpoint would move it.
 ///
 /// **Setpoints.** SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz, with p and v of the command, the yaw, and
-/// acceleration_gain·a(now + lead_s) + drag_per_s·v. The gain applies to the level axes: the vertical loop of an
+/// acceleration_gain·a(now + lead_s) + drag_per_s·v. The gain applies to the horizontal axes: the vertical loop of an
 /// autopilot has no D term. A PX4 holds a setpoint for one period, so p and v are those of half a period later. An
 /// ArduPilot extrapolates, so p and v are those of now. The bridge also sends HEARTBEAT at 2 Hz, TIMESYNC at 10 Hz, and
 /// in flight a request for the autopilot's HEARTBEAT at 5 Hz.

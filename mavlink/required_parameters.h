@@ -21,7 +21,7 @@ struct RequiredParameter {
   int bits = 0;        ///< bits of an integer that must be set
   /// Not every firmware version has it under this name: its absence is no fault.
   bool may_be_absent = false;
-  const char* also_called = nullptr;  ///< its name in other versions: one of both is enough
+  const char* also_called = nullptr;  ///< its name in other versions: one of the two is enough
 
   [[nodiscard]] bool allows(double value) const;
 };

@@ -15,7 +15,7 @@ namespace tern::mavlink {
 ///
 /// | estimate minus vision, at the estimate's time                | fault()                                       |
 /// |--------------------------------------------------------------|-----------------------------------------------|
-/// | within the bound, level and vertically                       | none                                          |
+/// | within the bound, horizontally and vertically                | none                                          |
 /// | beyond it for kApartFor                                      | the distances, and for how long               |
 /// | beyond it, and the estimator was reset since it was within   | the same, at once                             |
 /// | no vision within kPairing of the estimate's time             | that of the newest comparison                 |
@@ -27,7 +27,7 @@ class VisionCheck {
   /// Vision is carried on by its velocity for at most this time.
   static constexpr Duration kPairing{100'000};
 
-  /// @param bound_m  largest difference, level and vertically, m
+  /// @param bound_m  largest difference, horizontally and vertically, m
   explicit VisionCheck(double bound_m) : bound_m_(bound_m) {}
 
   /// Takes a state that was sent as external vision.

@@ -15,8 +15,8 @@ namespace tern {
 ///
 /// If the tracks do not fit, they are made coarser rather than left out:
 ///
-/// 1. Each track is resampled to at most 2s pieces in the first half of the order and s pieces in the second half. The
-///    error goes into α (core/world/resampling.h). s is the largest number for which all tracks fit.
+/// 1. Each track in the first half of the order is resampled to at most 2s pieces, each other track to at most s
+///    pieces. The error goes into α (core/world/resampling.h). s is the largest number for which all tracks fit.
 /// 2. About 1900 tracks fit with one piece each. Further ones are left out, the last ones first.
 /// 3. A track is also left out if resampling takes its numbers out of a message's ranges (α beyond 1e6 m, pieces of
 ///    weeks).
@@ -26,9 +26,8 @@ namespace tern {
 std::vector<TrackSet> split_batches(const TrackSet& whole);
 std::vector<ObstacleTruth> split_batches(const ObstacleTruth& whole);
 
-/// Returns the largest number of pieces per track for which one set holds `tracks` declared tracks of that many
-/// pieces. The set also holds `single` tracks of one piece. At most kMaxPiecesPerBatch; 0 if the tracks do not fit
-/// even with one piece each. O(tracks).
+/// Returns the largest n for which one set holds `tracks` declared tracks of n pieces each and `single` tracks of one
+/// piece each. It is at most kMaxPiecesPerBatch, and 0 if the tracks do not fit even with n = 1. O(tracks).
 std::size_t pieces_for_each(std::size_t tracks, std::size_t single);
 
 /// Returns the complete set, sorted by id, with header and set number of the first batch, as batch 0 of 1.

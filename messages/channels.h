@@ -46,8 +46,8 @@ struct Channel {
   Scope scope = Scope::Vehicle;
   const char* rate = "";           ///< in words
   bool latched = false;            ///< the newest message is repeated for processes that start late
-  std::optional<Role> owner = {};  ///< the only role that may send; nullopt: every role may, for itself.
-  /// A sender owns the channel until it is silent for this long; then another one may take over. nullopt: several
+  std::optional<Role> owner = {};  ///< the only role that may send; nullopt: any.
+  /// A sender owns the channel until it has been silent for this long; then another one may take over. nullopt: several
   /// senders may send at the same time.
   std::optional<Duration> silence = {};
 };

@@ -36,7 +36,8 @@ inline constexpr const char* kLcmType = nullptr;
 
 template <>
 inline constexpr const char* kLcmType<UavState> = "uav_state_t";
-/// Inconsistent: a vehicle follows unarmed; a following one has a `why_not`; another one has none.
+/// Inconsistent: `following` is true while `armed` is false; `following` is true with a `why_not`, or false without
+/// one.
 template <>
 inline constexpr const char* kLcmType<VehicleStatus> = "vehicle_status_t";
 /// Inconsistent: two detections have the same track id.

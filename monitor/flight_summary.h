@@ -53,7 +53,8 @@ struct FlightSummary {
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
   std::int64_t restarts = 0;
-  std::map<std::string, int> concurrent;  ///< processes of which several ran at a time, and the largest number
+  std::map<std::string, int> concurrent;  ///< for a process that ran several times at once: the largest number at a
+                                          ///< time
   std::string log;                        ///< path of the recording; empty: none
   std::string command;                    ///< command line of the user; empty: not known
   double pace = 1.0;                      ///< seconds of flight per second of the system's clock, which replan_ms has

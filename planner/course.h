@@ -23,9 +23,10 @@ Course course_in_place(const Surroundings& near);
 
 /// Returns the course along a path around static obstacles. Its local goal is local_goal_along() the path.
 ///
-/// The cost-to-go leads to the farthest corner of the path that a straight line may replace. That line may be at most
-/// kBendIgnored shorter than the path, and at most that much dearer. Small bends around posts are thus left to the
-/// search. The path into a window, out of a trap or around a region is followed from corner to corner.
+/// The cost-to-go is the straight line to one corner of the path, then the rest of the path. The corner is the farthest
+/// one whose straight line is at most kBendIgnored shorter than the path, and at most that much dearer. Small bends
+/// around posts are thus left to the search. The path into a window, out of a trap or around a region is followed from
+/// corner to corner.
 /// @pre path is not empty
 Course course_along(const std::vector<Vec3>& path, const TravelCost& cost, double largest_radius,
                     const Surroundings& near);

@@ -18,7 +18,7 @@ double min_duration(const MotionSample& start, const Vec3& to, const Limits& lim
 
 /// Returns the limits by which progress is measured over flights of this many metres.
 ///
-/// Under a gentle jerk limit less than kGentleShare of a_max is reached on the way. Then a_max is replaced by the
+/// Under a gentle jerk limit, less than kGentleShare of a_max is reached on the way. Then a_max is replaced by the
 /// acceleration reached from rest to rest: j T/4 with T = (32 d/j)^⅓. Otherwise braking would seem to take no time, and
 /// plans that overshoot would seem best.
 Limits paced(const Limits& limits, double metres);

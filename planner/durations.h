@@ -15,7 +15,7 @@ namespace tern {
 /// candidate must also make progress. The loop also ends with the budget, or when the obstacles are not known for as
 /// long as the next duration and its hold.
 /// @param phase   the phase that the attempts are counted in
-/// @param search  its lengths apply to local goals at kFullStep and beyond
+/// @param search for local goals at kFullStep and beyond; it is scaled() for nearer ones
 /// @return the reason if there is no new plan
 PlanReason try_durations(const Surroundings& near, const Course& course, Phase phase, const SearchConfig& search,
                          Incumbent& incumbent, PlanTools& tools);

@@ -19,7 +19,8 @@ namespace tern {
 /// obstacles' boxes sorts the stops: longest clear first, then the slower pace, then the soonest. The first kMaxStops
 /// are searched; usually the first succeeds. The hold of each is tested as far as predictions reach.
 ///
-/// In the phase Evasion the first stop that stays clear so long ends the loop. The loop also ends with the budget.
+/// In the phase Evasion the first stop that stays clear as far as predictions reach ends the loop. The loop also ends
+/// with the budget.
 /// @param course  for the estimated arrivals
 /// @return the best stop, or nullopt if the checker passed none
 std::optional<Candidate> find_evasion(const Surroundings& near, const Course& course, Phase phase, PlanTools& tools);

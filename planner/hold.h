@@ -26,12 +26,13 @@ struct HoldDemand {
   ///     clamp(until_s − end_s, 0, max(required_s, min(side_step_s, predicted_s) − end_s))
   ///
   /// The plan thus stays clear from t_s on for at least a side step. If a later plan no longer does, an evasion that
-  /// starts then is still in time. Where predictions widen with time, a hold is harder to have after a long plan than
-  /// after a short one. Staying would then win; until_s makes the two equal.
+  /// starts then is still in time. Where predictions widen with time, a long plan has a hold less often than a short
+  /// one, so staying would always be preferred. until_s makes up for that.
   [[nodiscard]] double required(double end_s) const;
   /// Returns for how long the hold of an end reached at end_s is tested, s: at least required(end_s).
   [[nodiscard]] double cap(double end_s) const;
-  /// The same for a stop that the vehicle evades to or waits at: as long as predictions reach.
+  /// Returns for how long the hold of a stop is tested, s: as far as predictions reach. At a stop the vehicle waits, or
+  /// it evades to it.
   [[nodiscard]] double cap_of_stop(double end_s) const;
 };
 

@@ -41,7 +41,7 @@ struct PlanAnswer {
 /// @param observer  receives the incumbents and the stages; may be null
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanWorkspace& workspace, PlanObserver* observer = nullptr);
-/// The same with a workspace of its own.
+/// Plans with a workspace of its own.
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanObserver* observer = nullptr);
 

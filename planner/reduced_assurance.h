@@ -19,7 +19,8 @@ bool is_settled(const Surroundings& near, const Course& course, const Incumbent&
 ///
 /// Let c be the confidence of an assurance, 0 if it is unknown. The vehicle has waited once it has been at rest for
 /// more than (1 − c)·kMaxWaitAtRest.
-///  - An assurance at the full level that grows as long as movers are predicted is skipped: it is the full one.
+///  - An assurance at the full level whose α grows as long as movers are predicted is skipped: it equals the full
+///    assurance.
 ///  - At a scale below 1 the loop ends if there is any candidate and the vehicle has not waited. A committed
 ///    trajectory that is clear at a larger α is surer.
 ///  - If the start stays relaxed at an assurance, that assurance is skipped. The last one is tried all the same.

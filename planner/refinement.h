@@ -16,8 +16,9 @@ namespace tern {
 /// @return the optimized trajectory, or the leaf
 Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools);
 
-/// Returns Eq. 4 for a leaf. Its goal is the local goal. With semantics it is the leaf's own end, where the search put
-/// it because of regions. An end within one band of the goal gets the local goal all the same.
+/// Returns Eq. 4 for a leaf. Its goal is the local goal. With semantics its goal is the leaf's own end, because the
+/// search chose that end by the regions. If the leaf ends within one band of the goal, the local goal is used even
+/// then.
 TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf);
 
 /// Returns the plane of widest margin and the hull for every pair near the trajectory. Such planes leave the optimizer

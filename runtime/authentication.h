@@ -56,8 +56,8 @@ void sign(Bytes& message, const KeyRing& keys, std::string_view channel, std::st
 
 /// Checks a message that carries a trailer.
 /// @param received  when the kernel took it, the listener's clock
-/// @return Unauthenticated for a missing trailer, another role's channel, a role whose key is missing, or a wrong tag.
-///   Repeated for a message older than kMaxTransit, or one that `guard` has seen.
+/// @return Unauthenticated for a missing trailer, a wrong tag, a role that may not send on this channel, or a role
+///   whose key is missing. Repeated if the message is older than kMaxTransit, or if `guard` has seen it.
 tl::expected<VerifiedMessage, Rejection> verify(std::span<const std::uint8_t> bytes, const KeyRing& keys,
                                                 ReplayGuard& guard, std::string_view channel,
                                                 std::string_view wire_name, UTime received);

@@ -26,14 +26,16 @@ class LCM;
 
 namespace tern {
 
-/// Least time between two batches of a set. LCM drops what does not fit into the socket buffer.
+/// Shortest time between two batches of a set. A set sent at once could overflow the socket buffer, and LCM would drop
+/// the rest.
 inline constexpr Duration kPacing{2'000};
 
-/// Messages of one subscription that LCM keeps until the process reads them; beyond it LCM drops the newest. It holds
-/// ten seconds at 100 Hz: after a pause the process finds old messages, but no gap in their sequence.
+/// Capacity of LCM's queue for one subscription, messages. LCM drops the newest message if the queue is full. The queue
+/// holds ten seconds at 100 Hz. After a shorter pause the process finds old messages, but no gap in their sequence.
 inline constexpr int kQueueCapacity = 1'000;
 
-/// The same for a listener to all channels, which may wait for a disk: more than twenty seconds of a flight.
+/// The same for a listener to all channels, which may wait for a disk. The queue holds more than twenty seconds of a
+/// flight.
 inline constexpr int kListenCapacity = 50'000;
 
 /// One process's end of the LCM network.
@@ -47,9 +49,9 @@ inline constexpr int kListenCapacity = 50'000;
 ///  3. With keys, a HEARTBEAT or CONFIGURATION that names one of Tern's processes comes from that process's role.
 ///  4. Its sender is the one accepted on the channel, its number is new, its time is not in the future (SenderWatch).
 ///
-/// Gaps in a sender's sequence numbers count as lost until the missing messages arrive. The count begins with the first
-/// message received of a sender's epoch, so late joining and restarts are no losses. LCM loops messages back: handlers
-/// also receive those that this bus published.
+/// A number missing in a sender's sequence counts as lost until its message arrives. The count begins with the first
+/// message received from a sender's epoch, so late joining and restarts are no losses. LCM loops messages back:
+/// handlers also receive the messages that this bus published.
 ///
 /// Thread safety: only publish() and counters() may be called from any thread (a planner's worker publishes its
 /// answer).
@@ -68,10 +70,12 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// Whether LCM takes a channel name or suffix literally: letters, digits, '_' and '-', at most 63. It may be empty.
+  /// True for a legal channel name or suffix: letters, digits, '_' and '-', at most 63 of them, or the empty text. (LCM
+  /// reads other characters as a pattern.)
   static bool is_channel_name(std::string_view name);
 
-  /// Sends the message immediately. Returns the name that it got. Thread-safe: sequence numbers leave in order.
+  /// Sends the message immediately and returns its name. Thread-safe: messages leave in the order of their sequence
+  /// numbers.
   /// @throws std::invalid_argument if the message breaks its contract (see encode), or if there is no key for
   ///   this channel. A message that throws uses up no sequence number.
   template <class T>
@@ -125,14 +129,14 @@ class Bus {
 
   [[nodiscard]] UTime next_due() const;  ///< when a paced message is due; kNever if none waits
   void send_due(UTime now);              ///< sends the messages that are due, at most one per channel
-  /// A copy of the counters, by channel name without suffix. Thread-safe.
+  /// Returns a copy of the counters, by channel name without suffix. Thread-safe.
   [[nodiscard]] std::map<std::string, ChannelCounters> counters() const;
   /// Counts an accepted message that a node found too old to be used.
   template <class T>
   void count_late(const Channel<T>& channel) {
     count_late_on(channel.name);
   }
-  /// Counts an accepted message that a node refuses because of what it knows, and logs that like any refusal.
+  /// Counts an accepted message as refused by the node for a reason of its own, and logs that like any refusal.
   template <class T>
   void refuse(const Channel<T>& channel, Rejection reason) {
     refuse_on(channel.name, reason);

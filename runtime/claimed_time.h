@@ -1,4 +1,5 @@
-// The newest time that a message claims to know of. SenderWatch refuses messages that claim times in the future.
+// The earliest time at which a message can have been sent, by the times that it states. SenderWatch refuses a message
+// for which this time lies in the future.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace tern {
 /// Largest time from the making of a request to its start, t_s: the executor's own limit.
 inline constexpr Duration kMaxLead{5'000'000};
 
-/// The later of the time of sending and the sender's start.
+/// Returns the later of the time of sending and the sender's start.
 inline UTime claimed_time(const Header& header) { return std::max(header.utime, UTime{header.name.sender_epoch_us}); }
 
 template <class T>

@@ -26,8 +26,8 @@ class Clock {
 /// move it; slewing (chrony, PTP) affects it like the system's clock.
 ///
 /// @param offset  is added (`--clock-offset-us`), so that clock skew can be tested.
-/// @param pace  below 1 slows the clock by that factor since kPaceOriginUs (`--pace`). All clocks of one pace agree,
-///   and each second of flight has more computing time.
+/// @param pace a value below 1 slows the clock by that factor since kPaceOriginUs (`--pace`), so a second of flight has
+///   more computing time. All clocks with the same pace agree.
 ///
 /// Thread-safe.
 class WallClock final : public Clock {

@@ -34,7 +34,7 @@ class ClockEchoes {
     return is_new;
   }
 
-  /// At most kMaxClockEchoes, by epoch ascending.
+  /// Returns at most kMaxClockEchoes echoes, in ascending order of their epochs.
   [[nodiscard]] std::vector<ClockEcho> echoes(UTime now) {
     forget_before(now - kOldest);
     std::vector<ClockEcho> result;
@@ -52,7 +52,7 @@ class ClockEchoes {
 
 /// The result of one exchange.
 struct ClockReading {
-  Duration ahead;       ///< of the listener's clock; negative: behind; error ≤ round_trip / 2
+  Duration ahead;       ///< the sender's clock minus the listener's; error ≤ round_trip / 2
   Duration round_trip;  ///< both ways, without the responder's waiting time, ≥ 0
 };
 

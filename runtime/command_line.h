@@ -38,35 +38,35 @@ class CommandOption {
   CommandOption& needs(const CommandOption& other);
   CommandOption& needs(const std::string& other);
   CommandOption& expected(int values);               ///< number of values
-  CommandOption& allow_extra_args(bool are_values);  ///< whether further words are values as well
-  CommandOption& take_all();                         ///< of all its values, if it is given again
-  CommandOption& set(const std::string& value);      ///< as if the command line gave this value
+  CommandOption& allow_extra_args(bool are_values);  ///< true: further words are values of this option
+  CommandOption& take_all();                         ///< keeps all values if the option is given several times
+  CommandOption& set(const std::string& value);      ///< acts as if the command line gave this value
 
  private:
   CLI::Option* option_;
 };
 
-/// A command line, or one of its subcommands. Copies are the same command line; those of subcommands are valid as long
-/// as a copy of the whole is. The variables of options must live until parse() has returned.
+/// A command line, or one of its subcommands. Copies are the same command line. A subcommand is valid while a copy of
+/// the whole command line exists. The variables of options must live until parse() has returned.
 class CommandLine {
  public:
   explicit CommandLine(const std::string& description, const std::string& name = "");
   CommandLine* operator->() { return this; }
 
-  /// @param names  "--jobs", "-o,--out" or, for a value by its place, "LOG"
+  /// @param names "--jobs", "-o,--out", or "LOG" for a positional argument
   /// @tparam T  one of the types instantiated in command_line.cpp: text, numbers, optional values, lists
   template <class T>
   CommandOption add_option(const std::string& names, T& value, const std::string& help);
   CommandOption add_flag(const std::string& name, bool& value, const std::string& help);
   CommandOption add_flag(const std::string& name, const std::function<void()>& given, const std::string& help);
   void set_version_flag(const std::string& name, const std::string& text);
-  void take_last();  ///< of options that are added later: the last value counts
+  void take_last();  ///< for options added later: if one is given several times, its last value is used
 
   CommandLine add_subcommand(const std::string& name, const std::string& help);
-  void prefix_command();  ///< all words after its own options belong to another program
+  void prefix_command();  ///< all words after this program's own options belong to another program
   void require_subcommand(int least, int most);
-  void callback(const std::function<void()>& run);        ///< if this subcommand is given, when it is parsed
-  void final_callback(const std::function<void()>& run);  ///< when all is parsed
+  void callback(const std::function<void()>& run);        ///< called when this subcommand has been parsed
+  void final_callback(const std::function<void()>& run);  ///< called when the whole command line has been parsed
   /// Whether this subcommand is given.
   explicit operator bool() const;
   /// The name of the first subcommand that is given, or "".
@@ -75,11 +75,11 @@ class CommandLine {
   [[nodiscard]] CommandOption option(const std::string& name) const;
   [[nodiscard]] bool has(const std::string& name) const;  ///< whether this option is given
   [[nodiscard]] std::vector<std::string> given() const;   ///< the names of all options that are given
-  /// Refuses an option, in a callback: parse() prints "NAME: WHAT".
+  /// Refuses an option; for use in a callback. parse() then prints "NAME: WHAT".
   [[noreturn]] static void refuse(const std::string& name, const std::string& what);
 
   /// Parses. Prints the help, the version or the refusal.
-  /// @return the exit code if the program ends now: 0 after help or version, `bad` if something is refused
+  /// @return the exit code if the program must end: 0 after help or version, `bad` after a refusal; else nullopt
   std::optional<int> parse(int argc, const char* const* argv, int bad);
 
  private:

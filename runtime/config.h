@@ -61,7 +61,7 @@ class ConfigSection {
   /// Reads every knob of a struct (core/base/knobs.h), then finishes.
   template <typename Config>
   void read(Config& config);
-  /// The same, of a struct that is as its constructor makes it.
+  /// Reads every knob of a default-constructed struct, then finishes.
   template <typename Config>
   Config read() {
     Config config;
@@ -94,12 +94,12 @@ class ConfigSection {
 
 class ConfigDocument {
  public:
-  /// Reads a file and applies the overrides in their order. An empty file name is an empty document. The path of an
+  /// Reads a file and applies the overrides in their order. An empty file name gives an empty document. The path of an
   /// override may name an entry of a list, as `world.obstacles[2].centre`. Missing parts of the path are created. The
   /// value is YAML.
   /// @throws ConfigError for a missing file, text that parse_yaml refuses, or an override without "key=value".
   static ConfigDocument load(const std::string& file, const std::vector<std::string>& overrides);
-  /// The same for YAML in memory; `name` is used in messages in place of the file's name.
+  /// Does the same with YAML in memory; `name` takes the place of the file's name in messages.
   static ConfigDocument parse(const std::string& yaml, const std::string& name,
                               const std::vector<std::string>& overrides = {});
   ConfigSection root();

@@ -16,7 +16,7 @@
 
 namespace tern {
 
-/// Keys by channel, and the role of their holder. A value; the keys of copies are wiped as well.
+/// Keys by channel, and the role of their holder. Copies are independent; each wipes its keys when it is destroyed.
 class KeyRing {
  public:
   /// The ring of one of Tern's processes (roles.h). A process of another name gets all keys, in the role Observer.

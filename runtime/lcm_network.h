@@ -15,7 +15,7 @@ class LCM;
 
 namespace tern {
 
-/// This host only. Two hosts need ttl=1 and a multicast route on both.
+/// The default network: this host only. Two hosts need ttl=1 and a multicast route on both.
 inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 /// The kernel's receive buffer that a process requests, bytes: room for over a hundred of the longest messages.
 inline constexpr std::int64_t kReceiveBufferBytes = 8'000'000;

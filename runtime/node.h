@@ -19,7 +19,8 @@ struct NodeHealth {
   std::string waiting_for;  ///< in words; may be empty
 };
 
-/// Subscribes on its Bus in its constructor. Handlers and step() are called from one thread and never re-entered.
+/// The behaviour of one process. A node subscribes on its Bus in its constructor. Handlers and step() are called from
+/// one thread and never re-entered.
 class Node {
  public:
   virtual ~Node() = default;

@@ -24,8 +24,9 @@ struct ProcessContext {
   const Scenario& scenario;
   ConfigSection section;  ///< this process's section of the scenario file; the node calls finish()
   Bus& bus;
-  /// The document of both, for a process that hosts another's part (the simulator also reads `executor`). After all
-  /// sections have been read, configuration_hash(document.effective()) identifies the configuration.
+  /// The document that contains the scenario and all sections. A process that includes a part of another one reads that
+  /// section from it (the simulator reads `executor`). After all sections have been read,
+  /// configuration_hash(document.effective()) identifies the configuration.
   ConfigDocument& document;
 };
 

@@ -11,8 +11,8 @@
 
 namespace tern {
 
-/// A message must not claim a time farther ahead of the listener's clock: ten times the permitted difference of clocks
-/// (docs/safety.md).
+/// A message is refused if claimed_time() is farther than this ahead of the listener's clock. It is ten times the
+/// permitted difference of clocks (docs/safety.md).
 inline constexpr Duration kMaxAhead{100'000};
 /// HEARTBEAT reports a problem of a channel (a second sender, messages from the future) until it has been absent this
 /// long.
@@ -42,17 +42,18 @@ class SenderWatch {
   explicit SenderWatch(std::optional<Duration> silence = {}, std::int64_t own_epoch_us = 0)
       : silence_(silence), own_epoch_us_(own_epoch_us) {}
 
-  /// @param claimed  the newest time that the message claims to know of (claimed_time)
+  /// @param claimed claimed_time() of the message
   /// @param arrived  listener's clock
   /// @param own_sent  number of messages that the listener itself has sent on this channel
   /// @return the reason to refuse the message, or nullopt if it is accepted.
   std::optional<Rejection> judge(const MessageName& name, UTime claimed, UTime arrived, std::int64_t own_sent);
 
-  /// Messages sent by accepted senders that did not arrive.
+  /// Returns the number of messages of accepted senders that did not arrive.
   [[nodiscard]] std::int64_t lost() const { return losses_.lost(); }
   /// Whether a second sender has published several times, and recently.
   [[nodiscard]] bool has_second_sender(UTime now) const;
-  /// How far ahead of the listener's clock recent messages were stamped; nullopt unless there were several.
+  /// Returns how far ahead of the listener's clock the times of recent messages were; nullopt unless there were several
+  /// such messages.
   [[nodiscard]] std::optional<Duration> ahead(UTime now) const;
 
  private:

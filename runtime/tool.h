@@ -1,4 +1,4 @@
-// Runs a tool that works on recorded flights: its parsing and exit codes.
+// Runs a tool that works on recorded flights: parses its command line and sets its exit code.
 #pragma once
 
 #include <functional>

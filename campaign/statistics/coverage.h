@@ -31,7 +31,8 @@ inline constexpr double kRestingWay = 0.1;  ///< m
 /// "declared", "unseen", "at rest", "new", "young", "grown", "old".
 const char* to_string(PredictionClass kind);
 
-/// An interval is checked at all times up to each of these, s after its making; the last one is its own end.
+/// A prediction interval is checked up to each of these times after it was made, s. The last one stands for its own
+/// end.
 inline constexpr std::array<double, 5> kCoveredAhead{0.25, 0.5, 1.0, 2.0, std::numeric_limits<double>::infinity()};
 inline constexpr std::size_t kHorizons = kCoveredAhead.size();
 /// "0.25", "0.5", "1", "2", "whole".

@@ -23,7 +23,7 @@ class Descriptor {
   int fd_;
 };
 
-/// Writes `bytes` to `fd`, after short writes and interrupts again.
+/// Writes all of `bytes` to `fd`; it goes on after short writes and interrupts.
 /// @return the number of bytes written; if it is less than bytes.size(), errno holds the reason
 std::size_t write_all(int fd, std::string_view bytes);
 

@@ -1,5 +1,5 @@
-// How a configuration struct states its knobs. Readers, `--help` and the tables in the documentation are made from
-// this one statement.
+// How a configuration struct lists its knobs, the keys of a configuration. Readers, `--help` and the tables in the
+// documentation are made from this one list.
 //
 //     struct HoverConfig {
 //       double height_m = 1.5;

@@ -11,7 +11,7 @@ namespace tern::gjk {
 
 // A descent over polytopes ends after a few steps; a longer one repeats itself because of rounding errors.
 inline constexpr int kMaxSteps = 48;
-// A step makes no progress if v·v − v·w is at most this part of v·v.
+// A step makes no progress if v·v − v·w is at most this fraction of v·v.
 inline constexpr double kRelativeProgress = 1e-12;
 // Bound of the rounding error of n·p in units of |n|₁|p|₁, including the error of n = e × f.
 inline constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
@@ -139,7 +139,7 @@ struct Descent {
   bool is_farther = false;  // the distance is proven to exceed `proof`
 };
 
-// As `proof`, it makes descend() compute the distance itself: no lower bound of the distance ends the descent.
+// The value of `proof` for a caller that needs the distance itself: no lower bound of the distance ends the descent.
 inline constexpr double kNoProof = std::numeric_limits<double>::infinity();
 
 // Runs the descent from one support point of A − B; support(v) returns the point of A − B that is lowest along v. The

@@ -8,8 +8,9 @@
 
 namespace tern {
 
-/// Hulls whose distance differs from the clearance by at most this may be reported as not separated; all other answers
-/// are exact. m. It bounds the rounding of coordinates up to 1e4 m: 1e4 · 2⁻⁵² times some dozens of operations.
+/// Tolerance of separate(), m. If the distance of two hulls differs from the clearance by at most this, they may be
+/// reported as not separated. All other answers are exact. It bounds the rounding of coordinates up to 1e4 m: 1e4 ·
+/// 2⁻⁵² times some dozens of operations.
 inline constexpr double kTouchingTolerance = 1e-6;
 /// Every published plane has n·q + d ≤ −kPlaneMargin on the vehicle's points q. m.
 inline constexpr double kPlaneMargin = 1e-9;

@@ -8,7 +8,8 @@
 
 namespace tern {
 
-/// The share of α: its value at a level of confidence, scaled, and optionally limited from one piece on.
+/// The part of α that applies: α at one level of confidence, times a scale. From a chosen piece on it may stay
+/// constant.
 struct AlphaShare {
   int level = 0;       ///< index into kConfidenceLevels
   double scale = 1.0;  ///< [0, 1], multiplies α at that level

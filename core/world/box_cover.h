@@ -11,8 +11,8 @@ namespace tern {
 /// Returns disjoint boxes whose union is exactly the union of the `wanted` voxels of a grid.
 ///
 /// The method is greedy. From the first uncovered voxel, in index order, a box grows along one axis, then over whole
-/// rows, then over whole layers. All three first axes are tried, and the largest box is kept. The smallest number of
-/// boxes is NP-hard to find. This method gives 1 box for a box, and 4 to 5 for a wall with a window.
+/// rows, then over whole layers. Each of the three axes is tried as the first one, and the largest box is kept. The
+/// smallest number of boxes is NP-hard to find. This method gives 1 box for a box, and 4 to 5 for a wall with a window.
 ///
 /// It takes O(voxels) for compact shapes and one bit of memory per voxel. Boxes are ordered by their first voxel, so
 /// equal maps give equal results.

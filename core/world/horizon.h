@@ -147,8 +147,8 @@ struct Plan {
   PlanInputs inputs;
   std::vector<CertificatePlane> certificate;
   std::vector<BudgetCut> cuts;
-  /// Set if the watchdog answered: the number of incumbents so far. It sent the last one, or an answer of its own if
-  /// there was none. nullopt: the planner had finished.
+  /// Set if the watchdog answered: the number of incumbents so far. The watchdog sent the last of them, or an answer of
+  /// its own if there was none. nullopt: the planner had finished.
   std::optional<std::int64_t> standing;
 };
 

@@ -66,7 +66,8 @@ struct RecordedTracksSpec {
   double centre_z = 1.0;                      ///< z of every centre if it is not recorded, m.
   /// The file's time 0 is moved to the first frame ≥ start_s after which nobody comes within 1 m of the start for 1 s.
   bool wait_for_clear_start = true;
-  /// As in WaypointMotion. The recording of such a track begins there, so the person would appear out of nothing.
+  /// A track that begins within this distance of the vehicle is left out of the flight, because the person would appear
+  /// out of nothing. m
   double leave_out_within_m = 3.0;
   int copies = 0;  ///< > 0: this many obstacles on pieces of the tracks, drawn by the seed, instead of the tracks
   Box within;      ///< the region of the copies, W; with copies only

@@ -42,8 +42,8 @@ class SequenceWindow {
   void restart();
 
   [[nodiscard]] std::int64_t newest() const { return now_.newest; }  ///< 0: none yet
-  /// Returns the number of lost messages. Messages left out by the newest number are not included, as they may still
-  /// arrive. It is 0 before kEstablished messages, because the sender may be noise.
+  /// Returns the number of lost messages. The numbers skipped just below the newest one are not included, because those
+  /// messages may still arrive. It is 0 before kEstablished messages, because the sender may be noise.
   [[nodiscard]] std::int64_t lost() const { return received_ < kEstablished ? 0 : now_.lost - now_.unsure; }
   /// Returns how many numbers lie below the smallest one that arrived; senders count from 1. It is 0 before
   /// kEstablished messages.

@@ -42,7 +42,7 @@ struct TrackBound {
   double model = 0.0;     ///< bound by the models' variance: z σ, where P[|error| > z σ] = 1 − confidence
   double measured = 0.0;  ///< bound by past prediction errors
   double promised = 0.0;  ///< α at that time
-  double evidence = 0.0;  ///< number of independent errors to which this flight's errors are equivalent
+  double evidence = 0.0;  ///< effective number of independent prediction errors in this flight
 };
 
 /// TRACK_BOUNDS: the bounds of the estimated tracks of one prediction set.

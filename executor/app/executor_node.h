@@ -22,7 +22,7 @@
 namespace tern {
 
 /// A vehicle that is outside its tube by more than this must rejoin, m. Below it, its controller brings it back. While
-/// the vehicle does not follow, this is the largest error.
+/// the vehicle does not follow, it is the largest distance from the setpoint.
 inline constexpr double kRejoinBeyond = 0.1;
 
 /// Flies plans: requests them, adopts them, and publishes a setpoint at 100 Hz and at each knot of the trajectory.
@@ -57,8 +57,8 @@ inline constexpr double kRejoinBeyond = 0.1;
 ///
 /// Rejoin means: commit to a braking trajectory from the measured state; the next plan starts on it. The yaw starts
 /// anew because estimators correct it during take-off. Silent is needed because the vehicle may not have received the
-/// plan that was adopted last. Lost has no way out but a restart. Since no setpoint leaves, the vehicle comes to rest
-/// at the end of the trajectory that it knows. Its pilot or its own failsafe takes over there.
+/// plan that was adopted last. Only a restart ends Lost. Since no setpoint is sent, the vehicle comes to rest at the
+/// end of the trajectory that it knows. There its pilot or its own failsafe takes over.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);

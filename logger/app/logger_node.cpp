@@ -26,9 +26,9 @@ LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
 
 LoggerConfig read_logger_config(ConfigSection section) {
   LoggerConfig config;
-  config.rotate_bytes = section.integer("rotate_mb", 1'000, 0, 1'000'000,
-                                        "a log file of this many MB is followed by a new part; 0: never") *
-                        1'000'000;
+  config.rotate_bytes =
+      section.integer("rotate_mb", 1'000, 0, 1'000'000, "size at which a new part of the log begins, MB; 0: never") *
+      1'000'000;
   section.finish();
   return config;
 }

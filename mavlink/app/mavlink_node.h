@@ -19,7 +19,8 @@ namespace tern::mavlink {
 /// - A GOAL of mode Go with a larger id than the first one orders the bridge to fly (again).
 /// - FLIGHT_RESULT makes it land.
 /// - `start: arm` arms only before the first GOAL: a bridge that is restarted during or after a flight waits.
-/// - While another process publishes VEHICLE_STATUS, it publishes and sends nothing: one of two bridges flies.
+/// - While another process publishes VEHICLE_STATUS, this one publishes and sends nothing: only one of two bridges
+///   flies.
 /// - A tern-executor in state Failed has given the vehicle up: the autopilot lands it.
 /// - Asked to end, it has the autopilot land what it flies, and goes on until the vehicle is disarmed. So a pilot who
 ///   flies keeps the external vision. It gives up when the link is silent for kLinkPatience, or when it is asked

@@ -1,4 +1,4 @@
-// A simulated autopilot behind MAVLink: the simulator's quadrotor, with the behaviour that was measured of PX4.
+// A simulated autopilot behind MAVLink: the simulator's quadrotor, with behaviour that was measured on PX4.
 #pragma once
 
 #include <deque>
@@ -32,9 +32,9 @@ struct SimulatedAutopilotConfig {
   void visit(V& v) {
     v("manners", manners, KnobWords<Manners>{{"px4", Manners::Px4}, {"ardupilot", Manners::ArduPilot}},
       "firmware whose modes, take-off and messages are simulated");
-    v("clock_rate", clock_rate, Range{0.9, 1.1}, "seconds of its clock per second");
+    v("clock_rate", clock_rate, Range{0.9, 1.1}, "seconds of the autopilot's clock per second");
     v("answer_after_s", answer_after, Range{0.0, 2.0}, "delay of acknowledgements, s");
-    v("busy_s", busy_for, Range{0.0, 60.0}, "for this time after its start it rejects commands temporarily, s");
+    v("busy_s", busy_for, Range{0.0, 60.0}, "how long the autopilot rejects commands temporarily after its start, s");
     v("velocity_d", velocity_d, Range{0.0, 2.0},
       "MPC_XY_VEL_D_ACC: D gain of the velocity loop, which opposes the whole acceleration");
   }
@@ -49,8 +49,8 @@ struct SimulatedAutopilotConfig {
 /// | streams         | see below                                      | HEARTBEAT 1 Hz, SYS_STATUS 5 Hz              |
 /// | following mode  | needs setpoints for 0.5 s to arm, or in flight | at any time                                  |
 /// | setpoints       | held until the next one                        | extrapolated until the next one              |
-/// | they cease      | after COM_OF_LOSS_T: COM_OBL_RC_ACT            | after GUID_TIMEOUT: stops, in GUIDED         |
-/// | they come again | returns to OFFBOARD                            | follows them                                 |
+/// | setpoints cease | after COM_OF_LOSS_T: COM_OBL_RC_ACT            | after GUID_TIMEOUT: stops, in GUIDED         |
+/// | setpoints again | returns to OFFBOARD                            | follows them                                 |
 /// | take-off        | by setpoints: spin-up 1 s, speed ramp 3 s      | by NAV_TAKEOFF; a setpoint ends it           |
 /// | no take-off     | disarms after 10 s                             | disarms after 10 s                           |
 /// | after landing   | disarms; the mode is that before landing       | disarms; stays in LAND                       |

@@ -15,7 +15,7 @@ inline constexpr std::tuple kJudgedChannels{
     channels::kPlan,        channels::kPlanTiming,          channels::kFlightResult,
     channels::kPredictions, channels::kObstacleObservations};
 
-/// Hands `watch` all messages by which it judges. Both must outlive the bus's deliveries.
+/// Hands `watch` all messages by which it judges. `watch` must exist while the bus delivers messages.
 inline void subscribe_flight(Bus& bus, FlightWatch& watch) {
   const auto subscribe = [&]<class T>(const Channel<T>& channel) {
     bus.subscribe(channel, [&bus, &watch](const T& message) {

@@ -63,7 +63,7 @@ class PlannerNode final : public Node {
   WorldIntake intake_;
   AnswerDesk desk_;
   Header last_request_;                    ///< header of the newest request: the network may deliver messages late
-  std::optional<HorizonRequest> waiting_;  ///< the request that came in while the worker was busy
+  std::optional<HorizonRequest> waiting_;  ///< the newest request that arrived while the worker was busy
   UTime waiting_since_{};
   std::optional<UTime> stuck_at_;  ///< from then on the worker's job has taken too long
   UTime next_check_{};             ///< time of the next check of the workers

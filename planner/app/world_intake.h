@@ -17,8 +17,8 @@
 
 namespace tern {
 
-/// The vehicle receives a goal when the planner does, and repeats its own goal from then on. A goal that it repeats
-/// this long after another one was received is the goal that it has taken.
+/// The vehicle receives a goal at the same time as the planner, and repeats the goal that it flies to. If it still
+/// repeats another goal this long afterwards, that other goal is the one in force.
 inline constexpr Duration kGoalTaken{500'000};
 
 /// Subscribes to PREDICTIONS, SEMANTIC_MAP and GOAL, and prepares the world of plans.

@@ -48,7 +48,7 @@ class BoxIndex {
   /// Returns whether the closed segment comes nearer than kPathClearance (per axis) to any box.
   [[nodiscard]] bool blocks(const Vec3& a, const Vec3& b) const;
 
-  /// The same, but of a box that contains `start` (to kPathClearance) only core_beyond() it blocks.
+  /// The same, except that a box that contains `start` (to kPathClearance) blocks only with the part core_beyond().
   [[nodiscard]] bool blocks(const Vec3& a, const Vec3& b, const Vec3& start) const;
 
   /// Returns whether p is within kPathClearance (per axis) of any box.

@@ -42,8 +42,8 @@ class GoalField {
   /// Computes the field, at about 1 µs per node: 120 ms for the corridor of 75×6×4 m.
   ///
   /// If the goal is in a box or outside the flight box, no node reaches it.
-  /// @param inflated_statics  positions of the centre at which the body touches an obstacle, grown by the wanted
-  /// clearance, W. Paths keep only kPathClearance from them. Their order does not matter.
+  /// @param inflated_statics positions of the centre at which the body touches an obstacle, grown by the wanted
+  /// clearance, W. Paths keep only kPathClearance from them. The order of the boxes does not matter.
   /// @param flight_box  allowed positions of the vehicle's centre, W
   /// @param goal  W
   static GoalField build(std::vector<Box> inflated_statics, const Box& flight_box, const Vec3& goal,

@@ -23,9 +23,10 @@ inline constexpr std::int32_t kNoNode = -2;
 /// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free. Its to_go is the cost of that
 /// segment plus the to_go of `next`.
 ///
-/// A node is queued as if it saw the turning point of the node that found it. That is tested only when it is popped; if
-/// it is false, the best closed neighbour becomes its `next`. Where cost differs from length, a straight line may not
-/// be the cheapest. Then the way over the node itself is also tried (Theta* on weighted grids).
+/// A node is queued as if it saw the turning point of the node that found it. The sight of that point is tested only
+/// when the node is popped. If the sight is blocked, the best closed neighbour becomes the node's `next`. Where cost
+/// differs from length, a straight line may not be the cheapest. Then the way over the node itself is also tried
+/// (Theta* on weighted grids).
 class GoalSearch {
  public:
   /// @pre grid, obstacles and cost outlive the search

@@ -30,7 +30,8 @@ inline constexpr double kGapAbsolute = 1e-8;  ///< in units of the objective, ω
 ///     f(x) − f*  ≤  Σ λ_i (−c_i(x)) + ½ rᵀ H⁻¹ r,   r = ∇f(x) + Σ λ_i ∇c_i(x).
 ///
 /// The order of operations is fixed, without BLAS, and of libm only sqrt is used: the same problem gives the same bits.
-/// A step costs O(rows · nonzeros² + n³). `solver_failed` means no pivot, or no step left before the gap closed.
+/// A step costs O(rows · nonzeros² + n³). `solver_failed` means that a factorization failed, or that the steps became
+/// too short before the gap was small enough.
 ///
 /// The solver allocates only for a problem larger than all before. One object serves one call at a time.
 class BarrierSolver {

@@ -36,8 +36,10 @@ struct SearchConfig {
     v("band_m", band_m, Range::positive(100.0),
       "leaves whose cost-to-go lies in one band of this width make equal progress, m");
     v("prune_position_m", prune_position_m, Range{0.01, 10.0},
-      "nodes of one index are merged if they are this near, m, and …");
-    v("prune_velocity_mps", prune_velocity_mps, Range{0.1, 100.0}, "… their velocities are this near, m/s");
+      "two nodes of one index are merged if their positions differ by less than this, m, and their velocities by less "
+      "than `search.prune_velocity_mps`");
+    v("prune_velocity_mps", prune_velocity_mps, Range{0.1, 100.0},
+      "difference of velocities for `search.prune_position_m`, m/s");
   }
 };
 

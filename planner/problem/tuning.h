@@ -21,14 +21,14 @@ inline constexpr double kMinPacedLength = 1e-4;
 
 // ---- How far ahead (look_ahead.h, hold.h, planning_world.h)
 
-/// The horizon is at least this long if movers are followed for so long, s.
+/// The horizon is at least this long, s, unless movers are followed for less.
 inline constexpr double kMinHorizon = 3.0;
 /// The growing box of a track near the vehicle is followed for this time after the track's last piece. By then the box
 /// of a mover faster than 1 m/s fills the sphere. A slower vehicle takes smaller steps (LookAhead).
 inline constexpr Duration kTrackBoxReach{4'000'000};
 /// The least step in which a hold is tested, s. It keeps the number of hulls small where Δt is shorter.
 inline constexpr double kHoldStep = 0.1;
-/// Half the horizon limits configured holds, but to no less than this, s.
+/// Configured holds are limited to half the horizon, or to this if it is longer, s.
 inline constexpr double kMinHold = 0.1;
 
 // ---- The local goal and the way to it (course.h, look_ahead.h, planner.cpp)
@@ -52,8 +52,7 @@ inline constexpr double kMinProgress = 0.01;
 
 // ---- The search's lengths for near local goals (look_ahead.h)
 
-/// The configured lengths of the search apply to local goals at least this far away, m, that are at most so many
-/// seconds away.
+/// The configured lengths of the search apply to local goals at least kFullStep (m) and at most kFullStepTime (s) away.
 inline constexpr double kFullStep = 2.0;
 inline constexpr double kFullStepTime = 4.0;
 /// Pruning merges velocities that differ by less than this share of the step's mean speed.
@@ -93,7 +92,8 @@ inline constexpr double kMaxArrivalLoss = 0.05;
 inline constexpr Duration kShortInterval{40'000};
 /// Below kShortInterval an optimized trajectory must keep this share of the leaf's progress.
 inline constexpr double kMinProgressKept = 0.5;
-/// A departure from rest ends nearer to the local goal by at least this, m. Two ends nearer to each other are one.
+/// A departure from rest ends nearer to the local goal by at least this, m. Two ends nearer to each other than this
+/// count as one.
 inline constexpr double kMinApproach = 1e-6;
 /// Once a candidate that holds ends this near to the local goal, no longer duration is tried, m.
 inline constexpr double kAtLocalGoal = 1.0;

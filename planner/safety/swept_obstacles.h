@@ -40,7 +40,7 @@ struct PlanningObstacle {
   [[nodiscard]] UTime motion_end() const { return boxes != nullptr ? boxes->end : track->motion.end(); }
 };
 
-/// The whole microseconds around an interval or a part of it.
+/// An interval or a part of it, rounded outwards to whole microseconds.
 struct UTimeSpan {
   UTime from, to;
 };

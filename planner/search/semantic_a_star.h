@@ -29,7 +29,7 @@ struct CostToGo {
 using StepCost = std::function<double(const Vec3& from, const Vec3& to)>;
 
 /// The search from the start for a leaf that comes as near to the goal as possible, within plan_limits. If the start is
-/// faster than plan_limits allow, the first velocities may be so as well, up to limits.v_max.
+/// faster than plan_limits allow, the first velocities may exceed plan_limits, up to limits.v_max.
 struct SearchProblem : HorizonProblem {
   CostToGo cost_to_go = {};
   StepCost accumulated = {};                          ///< summed along the path (exposure); empty: none

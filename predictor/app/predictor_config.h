@@ -35,17 +35,18 @@ struct PredictorConfig {
       "probability that the prediction interval covers a track over the whole horizon");
     v("max_speed", prediction.max_speed, Range::positive(1e3),
       "largest speed of a new or starting track, m/s per axis; a faster speed that was seen replaces it");
-    v("confirm_hits", tracker.confirm_hits, Range{1, 32}, "a track is confirmed by this many detections …");
+    v("confirm_hits", tracker.confirm_hits, Range{1, 32},
+      "number of detections within `confirm_window` that confirm a track");
     v("confirm_window", tracker.confirm_window, Range{1, 32},
-      "… in its first frames, this many; frames count if they detect the track, or come from the sensor that detected "
-      "it last");
+      "number of frames within which a new track must be confirmed. Only frames count that detect the track, or come "
+      "from the sensor that detected it last");
     v("coast_s", tracker.coast, Range{0.0, 60.0},
       "how long a confirmed track is predicted after its last detection, s");
     v("remember_rest_s", tracker.remember_rest, Range{0.0, 1e6},
-      "the same for a stationary track out of the sensor's range, and for any confirmed track whose sensor is silent, "
-      "s");
+      "the same as `coast_s`, for a confirmed track that is stationary and out of the sensor's range, or whose sensor "
+      "is silent, s");
     v("resting_after_s", tracker.resting_after, Range{0.1, 1e6},
-      "how long a track must be consistent with rest before it is predicted at rest, s; very large: never");
+      "how long a track must be consistent with rest before it is predicted at rest, s; with 1000000 never");
   }
 };
 

@@ -63,8 +63,8 @@ FilterPrediction learnt_prediction(const LearntCoefficients& coefficients, const
 /// - w is the sample's weight. It falls with the size of the residual, as for Student's t with 4 degrees of freedom.
 /// - W_0 is the prediction of the filter itself. A_0 is its precision, by the size of the terms of Taylor's series.
 /// - u is the mean square of the newest residuals, each taken before its sample entered S and m.
-/// - v(h) is u per axis without the variance of the observed position. After the group has enough samples, u and v are
-///   made of residuals since then only.
+/// - v(h) is u per axis, minus the variance of the observed position. Once the group has enough samples, u and v use
+///   only the residuals since then.
 ///
 /// A value: the same samples in the same order give the same model. refit() solves a system of kFeatures unknowns per
 /// group and per time ahead that has new samples.

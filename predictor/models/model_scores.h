@@ -11,8 +11,8 @@
 
 namespace tern {
 
-/// The times ahead at which models are scored, s: those that the planner needs. The likelihood of the next detection
-/// would not do. A walker's head sways, so it would choose models that are poor a second ahead.
+/// The times ahead at which models are scored, s: those that the planner needs. The likelihood of the next detection is
+/// no measure of that. A walker's head sways, so it would favour models that are poor a second ahead.
 inline constexpr std::array<double, 4> kScoredAhead{0.25, 0.5, 1.0, 2.0};
 inline constexpr std::size_t kScoredHorizons = kScoredAhead.size();
 /// The time between two scored predictions of a track, s.
@@ -23,9 +23,9 @@ constexpr double score_weight(double ahead_s) { return ahead_s > kScorePeriod ? 
 /// Factor on the sum of scores at each new one: for the tracks of a pool, and for one track.
 inline constexpr double kPoolForgetting = 0.98;
 inline constexpr double kOwnForgetting = 0.9;
-/// No model's sum is farther than this below that of the bank's best, so every model can recover. It is the floor that
-/// fixed share keeps (M. Herbster, M. K. Warmuth, "Tracking the best expert", 1998). The learnt model is also at most
-/// this much ahead.
+/// Every model's sum stays within this of the sum of the bank's best model, so every model can recover. It is the floor
+/// that fixed share keeps (M. Herbster, M. K. Warmuth, "Tracking the best expert", 1998). The learnt model is also at
+/// most this much ahead.
 inline constexpr double kMaxScoreGap = 8.0;
 /// Smaller weights are set to 0.
 inline constexpr double kMinWeight = 0.02;

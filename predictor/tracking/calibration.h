@@ -103,7 +103,7 @@ class Calibration {
   static constexpr std::size_t kOwnScores = 800, kPoolScores = 1600;
   static constexpr double kPriorWeight = 30.0, kPoolWeight = 30.0;
   static constexpr double kAdaption = 0.2;
-  /// At lower levels θ begins with this part of the prior's θ. Some ten scores later it has adapted to the scene.
+  /// At lower levels θ begins with this fraction of the prior's θ. Some ten scores later it has adapted to the scene.
   static constexpr double kInitialLevel = 0.25;
   /// Bounds of θ/allowed.
   static constexpr double kMinLevel = 0.1, kMaxLevel = 2.0;

@@ -8,8 +8,8 @@
 
 namespace tern {
 
-/// The probabilities of the table's quantiles. The last one stands for 1, but is the quantile at kPriorLastProbability.
-/// The largest scores, of one prediction in 400, depend on the scene and are left to be learnt.
+/// The probabilities of the table's quantiles. The entry at 1 is the quantile at kPriorLastProbability. The largest
+/// scores, of one prediction in 400, depend on the scene and are left to be learnt.
 inline constexpr std::array kPriorProbabilities{0.0, 0.2,  0.4,   0.5,   0.6,  0.7,   0.8, 0.85,
                                                 0.9, 0.95, 0.975, 0.985, 0.99, 0.995, 1.0};
 inline constexpr double kPriorLastProbability = 0.9975;

@@ -25,7 +25,7 @@ struct DetectedTrack {
   Vec3 position = Vec3::Zero();  ///< as detected, W, m
   Vec3 variance = Vec3::Zero();  ///< of the position, m²
   const BankFilter* bank = nullptr;
-  bool is_stationary = false;  ///< then no prediction of it is stored here
+  bool is_stationary = false;  ///< true: the scorer stores no prediction of it
 };
 
 /// The times after a prediction's start at which it is evaluated, s: two near its start, then two or three per band.
@@ -35,12 +35,12 @@ inline constexpr std::array<double, 12> kEvaluatedAhead{0.05, 0.125, 0.25, 0.375
 /// detections on both sides it is the straight line between two neighbours that are at most kMaxGap apart, s.
 inline constexpr double kSmoothingSpan = 0.2, kMaxGap = 0.5;
 
-/// One of kEvaluatedAhead, s: a track's speed is its distance over this span, which noise and one exchanged detection
-/// change little.
+/// A track's speed is its distance over this span, s; one of kEvaluatedAhead. Over this span, noise and a single
+/// exchanged detection change the speed little.
 inline constexpr double kSpeedSpan = 0.5;
 
 /// A scene is slow once this many tracks were seen to move, all slower than kSlowSpeed. By the rule of succession the
-/// next one is faster once in 18 times. The first faster track ends it for the rest of the flight.
+/// next one is faster once in 18 times. After the first faster track, the scene is not slow for the rest of the flight.
 inline constexpr std::size_t kMinMovers = 16;
 /// A slower track does not count as moving, m/s.
 inline constexpr double kMinMovingSpeed = 0.5;
@@ -52,7 +52,7 @@ inline constexpr int kMaxExchangeTests = 20'000;
 /// The scores of one prediction.
 struct ScoredPrediction {
   TrackClass kind = TrackClass::New;
-  std::size_t bands = 0;    ///< the first so many bands were evaluated to their end
+  std::size_t bands = 0;    ///< number of bands, from the first, that were evaluated to their end
   PerBand<float> scores{};  ///< the largest covering_margin() of each band
 };
 

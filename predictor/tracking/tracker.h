@@ -65,7 +65,7 @@ inline constexpr Duration kBoundsAhead{1'000'000};
 struct TrackerConfig {
   PredictionSpec prediction;
   int confirm_hits = 3;             ///< a track is confirmed after this many detections …
-  int confirm_window = 5;           ///< … in its first so many counted sets (Tracker); hits ≤ window ≤ 32
+  int confirm_window = 5;           ///< … within its first counted sets (Tracker), this many; hits ≤ window ≤ 32
   Duration coast{1'500'000};        ///< a confirmed track survives its last detection by this time
   Duration resting_after{600'000};  ///< a track that was consistent with rest for this long is stationary.
   /// Survival after the last detection of a stationary track out of range, and of any confirmed track whose sensor is
@@ -78,7 +78,7 @@ struct TrackerConfig {
 /// How many tracks that were detected once were detected again.
 struct ExistenceRecord {
   int again = 0, never = 0;  ///< tracks
-  /// The estimated share of real obstacles: Laplace's rule of succession with one success at first.
+  /// The estimated share of real obstacles: Laplace's rule of succession, which begins with one success.
   [[nodiscard]] double real_share() const { return (again + 1.0) / (again + never + 1.0); }
 };
 

@@ -20,8 +20,8 @@ struct MapRemark {
 /// are float32 coordinates that are too large for the resolution, and points that are not finite or too far away.
 /// Unclassified points among classified ones are a third.
 /// @param classes  meanings as configured, with semantics enabled
-/// @throws ConfigError if no point can mark a voxel. It names the counts per class and the file's properties. Either no
-///   class has a meaning, or all points lie outside the extents, or far from the flight box.
+/// @throws ConfigError if no point can mark a voxel. Either no class has a meaning, or all points lie outside the
+///   extents or far from the flight box. The error names the counts per class and the file's properties.
 std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& cloud, const ClassMeanings& classes,
                                     const MapperConfig& config, const Box& flight_box);
 

@@ -24,7 +24,7 @@ using NamedLabels = std::vector<std::pair<std::string, VoxelLabel>>;
 NamedLabels::value_type read_class(ConfigSection& classes, const std::string& name, const std::string& fallback) {
   if (class_numbers(name).empty())
     throw classes.error(name, "is not a class, a group of classes or a number from 0 to 255");
-  return {name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "label of such points"))};
+  return {name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "label of the points of this class"))};
 }
 
 NamedLabels read_given_classes(ConfigSection classes) {
@@ -45,8 +45,8 @@ CloudFormat read_format(ConfigSection& section, const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension();
   const bool is_ply = ending == ".ply" || ending == ".PLY";
   const bool is_given = section.has("format");
-  const std::string format =
-      section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}, "by the name, if not given");
+  const std::string format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"},
+                                            "file format; by default that of the file name's ending");
   const bool is_known = is_ply || ending == ".las" || ending == ".LAS" || ending == ".laz" || ending == ".LAZ";
   if (!is_given && !is_known) {
     throw section.error("file", fmt::format("{}: files {} are not read; LAS (*.las) and PLY (*.ply) are. "
@@ -86,8 +86,9 @@ CloudSource read_source(ConfigSection section) {
                                      "subtracted from the file's coordinates, in its units");
   source.frame.metres_per_unit = section.number("metres_per_unit", source.frame.metres_per_unit, Range::positive(1e6),
                                                 "length of the file's unit, m: 0.3048 for feet");
-  source.min_points = static_cast<int>(
-      section.integer("min_points", source.min_points, 1, 1'000'000, "marks of one label that a voxel needs"));
+  source.min_points =
+      static_cast<int>(section.integer("min_points", source.min_points, 1, 1'000'000,
+                                       "number of points with one label that a voxel needs to get that label"));
   source.point_radius =
       section.number("point_radius_m", source.point_radius, Range::at_least(0.0, 10.0),
                      "a point also marks voxels whose centre is this near, m; closes gaps of sparse scans");

@@ -24,7 +24,8 @@ struct CloudSource {
   double point_radius = 0.0;            ///< m
   std::vector<std::string> fill_below;  ///< class names
   std::string label;                    ///< the PLY property that is the class; "": by the usual names
-  std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< class or group name → label, before the map's own
+  std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< class or group name → label; has priority over the
+                                                            ///< map's own
   ConfigSection section;  ///< the section, for errors that are found when the file is opened
 };
 

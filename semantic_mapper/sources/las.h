@@ -11,10 +11,9 @@ namespace tern {
 
 /// Returns the points of an uncompressed LAS file with point data record format 0–10. O(points).
 ///
-/// Positions are computed by the header's scale and offset, then by `frame`. The class is in the low five bits
-/// (formats 0–5) or in the whole byte (6–10). Withheld points are left out. Points that
-/// cannot be used are left out and counted (CloudFile). If the 64-bit count of version 1.4 is 0, the legacy count
-/// holds.
+/// Positions are computed by the header's scale and offset, then by `frame`. The class is in the low five bits (formats
+/// 0–5) or in the whole byte (6–10). Withheld points are left out. Points that cannot be used are left out and counted
+/// (CloudFile). If the 64-bit count of version 1.4 is 0, the legacy count is used.
 ///
 /// Files may be hostile: all sizes are checked against the file's size and kMaxCloudPoints before memory is allocated.
 /// An Error names `file`, offset, value and limit. Errors are:

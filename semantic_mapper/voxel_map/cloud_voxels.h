@@ -12,8 +12,8 @@ namespace tern {
 ///    ignored.
 /// 2. A voxel with at least min_points marks of one label gets that label. Its class is the one with the most marks;
 ///    of equal counts, the one with the lower number.
-/// 3. The column below a voxel of a fill_below class gets the same label, down to the map's floor. The roofs of an
-///    airborne scan so become solid buildings.
+/// 3. The column below a voxel of a fill_below class gets the same label, down to the map's floor. So the roofs of an
+///    airborne scan become solid buildings.
 /// @return false if points mark voxels of the grid, but no voxel has min_points marks of one label
 bool paint_cloud(const CloudLayer& cloud, VoxelPainter& painter);
 

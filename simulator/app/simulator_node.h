@@ -42,10 +42,10 @@ inline constexpr int kExitNotReady = 3;  ///< a required process was not ready i
 /// scenario's, with id 1, unless config.send_goal is false. A GOAL with a larger id replaces it. It is repeated at 1
 /// Hz.
 ///
-/// A process that was held up for more than kSetpointSilence publishes no vehicle message until its own VEHICLE_STATUS
-/// has come back. Then all messages sent meanwhile have been received. After more than 0.4 s, setpoints may be lost.
-/// Then VEHICLE_STATUS reports *not following* for a moment, while the vehicle flies its committed trajectory. So the
-/// executor continues from where the vehicle is.
+/// If this process was held up for more than kSetpointSilence, it publishes no vehicle message until its own
+/// VEHICLE_STATUS has come back. By then it has received all messages that were sent meanwhile. If it was held up for
+/// more than 0.4 s, setpoints may be lost. VEHICLE_STATUS then reports *not following* for a moment, and the vehicle
+/// flies its committed trajectory. The executor continues from the vehicle's position.
 class SimulatorNode final : public Node {
  public:
   /// Time begins at bus.clock().now().

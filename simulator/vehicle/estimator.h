@@ -25,13 +25,13 @@ struct EstimatorSpec {
     v("position_sigma_m", position_sigma_m, Range{0.0, 100.0},
       "standard deviation of the position's noise per axis, m");
     v("velocity_sigma", velocity_sigma, Range{0.0, 100.0}, "standard deviation of the velocity's noise per axis, m/s");
-    v("noise_time_s", noise_time_s, Range{1e-3, 1e3}, "correlation time of both, s");
+    v("noise_time_s", noise_time_s, Range{1e-3, 1e3}, "correlation time of the noise of position and velocity, s");
     v("drift_m", drift_m, Range{0.0, 100.0}, "standard deviation of the position's bias per axis, m");
     v("drift_time_s", drift_time_s, Range{1.0, 1e5}, "correlation time of the bias, s");
     v("latency_s", latency_s, Range{0.0, 1.0},
       "delay of UAV_STATE after its time, s; the controller's estimate has no delay");
     v("jump_m", jump_m, Range{0.0, 100.0},
-      "shift of the position at a reset of the estimator, level, in a random direction, m");
+      "horizontal shift of the position at a reset of the estimator, in a random direction, m");
     v("jump_every_s", jump_every_s, Range{0.0, 1e6}, "mean time between resets, s; 0: only the one of `jump_at_s`");
     v("jump_at_s", jump_at_s, Range{0.0, 1e6}, "time of one reset after the vehicle's start, s; 0: none");
   }
@@ -45,7 +45,7 @@ class Estimator {
   void advance(double dt);
   [[nodiscard]] Vec3 position_error() const { return noise_ + bias_ + jumped_; }  ///< estimate − truth, m
   [[nodiscard]] Vec3 velocity_error() const { return velocity_; }                 ///< m/s
-  /// Shifts the estimate by so many metres, level, in a random direction.
+  /// Shifts the estimate horizontally by this distance, in a random direction.
   void jump(double metres);
   /// Shifts the estimate, m.
   void jump(const Vec3& by);

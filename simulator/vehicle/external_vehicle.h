@@ -6,7 +6,7 @@
 
 namespace tern {
 
-/// Follows the states that the other processes publish, and joins each two of them by a cubic. The states are those of
+/// Follows the states that the other processes publish, and joins successive states by cubics. The states are those of
 /// UAV_STATE until a VEHICLE_TRUTH arrives, then those of VEHICLE_TRUTH. Until the first state the vehicle is at rest
 /// at scenario.uav.start. States less than 5 ms apart count as one. It ignores setpoints and publishes no state.
 class ExternalVehicle final : public Vehicle {

@@ -12,7 +12,7 @@ struct FlightControllerSpec {
   double position_p = 2.5;    ///< [MPC_XY_P, MPC_Z_P]
   double velocity_p = 5.0;    ///< [MPC_XY_VEL_P_ACC]
   double velocity_i = 2.0;    ///< [MPC_XY_VEL_I_ACC]
-  double velocity_d = 0.0;    ///< [MPC_XY_VEL_D_ACC]: opposes the whole level acceleration
+  double velocity_d = 0.0;    ///< [MPC_XY_VEL_D_ACC]: opposes the whole horizontal acceleration
   double attitude_p = 12.0;   ///< [MC_ROLL_P]
   double yaw_p = 2.5;         ///< [MC_YAW_P]
   double rate_p = 30.0;       ///< [MC_ROLLRATE_P over inertia]
@@ -27,7 +27,8 @@ struct FlightControllerSpec {
     v("position_p", position_p, Range{0.0, 20.0}, "velocity per position error, 1/s");
     v("velocity_p", velocity_p, Range{0.0, 50.0}, "acceleration per velocity error, 1/s");
     v("velocity_i", velocity_i, Range{0.0, 50.0}, "acceleration per second of velocity error, 1/s²");
-    v("velocity_d", velocity_d, Range{0.0, 2.0}, "level acceleration against the estimated acceleration, share of it");
+    v("velocity_d", velocity_d, Range{0.0, 2.0},
+      "share of the estimated horizontal acceleration that is commanded against it");
     v("attitude_p", attitude_p, Range{0.1, 50.0}, "body rate per tilt error, 1/s");
     v("yaw_p", yaw_p, Range{0.1, 20.0}, "body rate per heading error, 1/s");
     v("rate_p", rate_p, Range{0.1, 200.0}, "angular acceleration per rate error, 1/s");
@@ -37,7 +38,7 @@ struct FlightControllerSpec {
     v("speed_max", speed_max, Range{0.1, 100.0}, "largest commanded speed, m/s");
     v("drag_per_s", drag_per_s, Range{0.0, 5.0}, "feed-forward against drag: acceleration per commanded velocity, 1/s");
     v("lead_s", lead_s, Range{0.0, 0.5},
-      "the commanded acceleration is that of this much later, because tilting takes time, s");
+      "how far ahead the commanded acceleration is taken, because tilting takes time, s");
   }
 };
 

@@ -39,7 +39,7 @@ struct QuadrotorSpec {
     v("least_thrust", least_thrust, Range{0.0, 0.5}, "least thrust of a rotor, share of its largest");
     v("motor_lag_s", motor_lag_s, Range{0.005, 0.5}, "time constant of a rotor's thrust, s");
     v("torque_per_thrust_m", torque_per_thrust_m, Range{1e-4, 1.0}, "a rotor's reaction torque per thrust, m");
-    v("drag_per_s", drag_per_s, Range{0.0, 10.0}, "linear drag per mass across the rotor discs, 1/s");
+    v("drag_per_s", drag_per_s, Range{0.0, 10.0}, "linear drag per mass in the plane of the rotors, 1/s");
     v("drag_up_per_s", drag_up_per_s, Range{0.0, 10.0}, "linear drag per mass along the rotors' axes, 1/s");
     v("drag_per_m", drag_per_m, Range{0.0, 10.0}, "quadratic drag per mass, 1/m");
   }

@@ -46,7 +46,8 @@ struct VehicleTruth {
   bool on_ground = false;
 };
 
-/// Begins hovering at `start`, as after a long hover in the mean wind, or standing there if that is the ground.
+/// A simulated quadrotor. It begins in hover at `start`, as after a long hover in the mean wind. If `start` lies on the
+/// ground, it begins standing there.
 ///
 /// Time advances in whole steps. The newest command holds until the next one: it is extrapolated with its acceleration
 /// and jerk for at most kHeldFor, then the place is held. Without a command the model holds its start. Deterministic
@@ -74,7 +75,7 @@ class QuadrotorModel {
   [[nodiscard]] std::optional<UavState> delayed_estimate();
   /// Changes the gains.
   void tune(const FlightControllerSpec& gains) { controller_.tune(gains); }
-  /// Resets the estimator with a shift of so many metres.
+  /// Resets the estimator with a horizontal shift of this distance.
   void jump_estimate(double metres) { estimator_.jump(metres); }
   /// The same by a given shift, m.
   void jump_estimate(const Vec3& by) { estimator_.jump(by); }

@@ -20,15 +20,16 @@ struct WindSpec {
   double burst_lasts_s = 1.0;
   template <typename V>
   void visit(V& v) {
-    v("speed", speed, Range{0.0, 60.0}, "speed of the mean wind, level, m/s");
+    v("speed", speed, Range{0.0, 60.0}, "horizontal speed of the mean wind, m/s");
     v("towards", towards, Range::within(7.0), "direction to which the mean wind blows, from W's x, rad");
     v("gusts", gusts, Range{0.0, 5.0},
       "strength of Dryden's turbulence at low altitude; 1: that of this mean wind, 0: none");
     v("height_m", height_m, Range{3.0, 300.0}, "height above the ground that the turbulence is computed for, m");
-    v("burst", burst, Range{0.0, 60.0}, "peak of one discrete gust, level, m/s");
-    v("burst_towards", burst_towards, Range::within(7.0), "direction to which it blows, rad");
-    v("burst_at_s", burst_at_s, Range{0.0, 1e6}, "its beginning, s after the vehicle's start");
-    v("burst_lasts_s", burst_lasts_s, Range::positive(1e3), "its duration, s");
+    v("burst", burst, Range{0.0, 60.0}, "peak of one discrete horizontal gust, m/s");
+    v("burst_towards", burst_towards, Range::within(7.0),
+      "direction to which the discrete gust blows, from W's x, rad");
+    v("burst_at_s", burst_at_s, Range{0.0, 1e6}, "beginning of the discrete gust, s after the vehicle's start");
+    v("burst_lasts_s", burst_lasts_s, Range::positive(1e3), "duration of the discrete gust, s");
   }
 };
 

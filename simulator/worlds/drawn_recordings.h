@@ -14,8 +14,8 @@ namespace tern {
 /// start to goal at constant speed, and arrives after the rest-to-rest bound.
 inline constexpr double kMeetingDistance = 1.0;
 
-/// Draws the frame of the recording at which a flight begins, again until a track is met. Tracks that crowd the start
-/// (crowds_start) are not met. @return the time of the file, s; an Error after 10,000 draws.
+/// Draws the frame of the recording at which a flight begins, and repeats the draw until a track is met. Tracks that
+/// crowd the start (crowds_start) are not met. @return the time of the file, s; an Error after 10,000 draws.
 Result<double> draw_start(Rng& rng, const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                           const UavSpec& uav);
 

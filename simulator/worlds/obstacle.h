@@ -69,7 +69,7 @@ class WorldObstacle {
   [[nodiscard]] bool present(double t_s) const { return t_s >= first_s_ && t_s <= last_s_; }
   /// When its motion begins; −∞ if it always or never moves.
   [[nodiscard]] double begins_s() const;
-  /// Makes it absent at all times: present from a time that no flight reaches to one before all flights.
+  /// Makes the obstacle absent at all times, by a presence that ends before it begins.
   void leave_out() {
     first_s_ = 1e9;
     last_s_ = -1e9;

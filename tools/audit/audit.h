@@ -38,13 +38,14 @@ using ByAge = std::array<std::array<IntervalCount, kHorizons>, kAgeBins>;
 /// How many predictions of one track covered its obstacle.
 struct TrackCoverage {
   std::int64_t track = 0, obstacle = 0;
-  std::int64_t sets = 0, covered = 0;  ///< judged prediction intervals, one per set; those that covered throughout
+  std::int64_t sets = 0, covered = 0;  ///< number of judged intervals, one per set, and of those that covered
+                                       ///< throughout
   double worst_m = 0.0;                ///< how far the true box stood out of an interval at most; ≤ 0: never
 };
 
 /// Bounds of the flight's least clearance.
 struct LeastClearance {
-  bool known = false;            ///< the log has something to be near to
+  bool known = false;            ///< the log has an obstacle (an occupied voxel)
   double low = 0.0, high = 0.0;  ///< bounds, m
   bool proven = false;  ///< low is a proven bound; false: interpolated between samples, or messages are missing
 };

@@ -43,8 +43,8 @@ struct DeclaredPiece {
 
 /// The messages of one flight. Times are on the vehicle's clock.
 ///
-/// A log may hold several flights, since a restarted simulator begins a new world. This is the first flight with a
-/// HORIZON_REQUEST; the others are only listed.
+/// A log may hold several flights, since a restarted simulator begins a new world. The record holds the first flight
+/// with a HORIZON_REQUEST; the others are only listed.
 struct FlightRecord {
   std::string path;
   LogContents contents;

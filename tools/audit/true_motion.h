@@ -64,8 +64,9 @@ struct Window {
   [[nodiscard]] UTime sure_to() const { return to - unsure; }
   [[nodiscard]] bool contains(UTime t) const { return t >= from && t <= to; }
 };
-/// Finds the judged time. The referee judges each state when it is published. So the verdict is later than the last
-/// state but one before FLIGHT_RESULT. It is not later than FLIGHT_RESULT, nor than the first request plus flight_time.
+/// Finds the judged time. The referee judges each state when it is published. So the verdict is later than the
+/// second-last state before FLIGHT_RESULT. It is not later than FLIGHT_RESULT, nor than the first request plus
+/// flight_time.
 Window judged_window(const FlightRecord& record);
 
 }  // namespace tern::audit

@@ -29,8 +29,8 @@ inline constexpr std::size_t kMinPredictions = 150;
 ///    motion's share. So each of the three motions may use a third of what is allowed.
 /// 4. Margins are found band by band. Predictions that an earlier band missed no longer count in a later one.
 /// 5. θ is the share of scores above the margin, at most what is allowed and at least a tenth of it.
-/// 6. The slow table repeats a row of the first table if slow recordings have too few predictions of the class. It does
-///    so, as well, if they would give a wider margin.
+/// 6. The slow table repeats a row of the first table if slow recordings have too few predictions, or would give a
+///    wider margin.
 ///
 /// @throws std::runtime_error if no source has kMinPredictions of a class, evaluated to the end of each band
 std::string prior_table(const std::vector<Source>& sources, const std::vector<Source>& slow_sources);

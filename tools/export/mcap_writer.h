@@ -32,7 +32,7 @@ class McapWriter {
   explicit McapWriter(const std::string& path);
 
   /// Adds a message. The first message of a topic fixes its schema. Infinite values and NaN become null.
-  /// @param schema_name  the same name means the same schema  ///< topics with the same name share the schema
+  /// @param schema_name  topics with the same name share the schema
   /// @param time_us      since the Unix epoch, ≥ 0
   void add(const std::string& topic, const std::string& schema_name, Json (*schema)(const std::string& name),
            std::int64_t time_us, const Json& message);

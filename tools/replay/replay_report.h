@@ -12,7 +12,7 @@ namespace tern {
 /// @param what_if  the settings differ from the recorded ones, so differences are listed but not judged
 std::string replay_text(const Replay& replay, bool what_if);
 
-/// The same as JSON, with a line per answer.
+/// Returns the report as JSON, with a line per answer.
 std::string replay_json(const Replay& replay, bool what_if);
 
 /// 0: all answers agree as promised; 1: an answer differs; 3: no answer differs, but the log lacks something. With
