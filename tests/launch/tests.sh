@@ -78,6 +78,28 @@ END
   expect "it has landed" test -e "$work/landed"
 }
 
+# Its pilot flies on: it ends at the second signal only, which comes after the launcher has said what it does.
+keep_alive_waits_for_a_pilot_until_it_is_asked_again() {
+  mkdir "$work/bin"
+  cat >"$work/bin/tern-mavlink" <<END
+#!/bin/sh
+trap 'echo asked >>"$work/asked"; [ \$(wc -l <"$work/asked") -lt 2 ] || exit 5' TERM
+echo ready >"$work/ready"
+while :; do read -r _ <"$work/fifo" || true; done
+END
+  chmod +x "$work/bin/tern-mavlink"
+  mkfifo "$work/fifo"
+  "$TERN_BIN/tern-launch" keep -- "$work/bin/tern-mavlink" 2>"$work/said" &
+  local keeper=$!
+  eventually "start" test -e "$work/ready"
+  kill -TERM "$keeper"
+  eventually "it says what it waits for" has_text "waits until the vehicle is disarmed" "$work/said"
+  [[ $(wc -l <"$work/asked") == 1 ]] || fail "asked before the second signal"
+  kill -TERM "$keeper"
+  wait "$keeper" || fail "exit code $?"
+  expect "it says what it leaves" has_text "THE VEHICLE MAY STILL BE ARMED" "$work/said"
+}
+
 # A program that ends by SIGKILL only; it holds a file named $1 with its pid.
 make_stubborn() {
   cat >"$work/stubborn" <<END
