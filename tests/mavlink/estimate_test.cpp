@@ -12,7 +12,9 @@ namespace {
 using testing::HasSubstr;
 
 TEST(Estimate, AVehicleThatSaysNoPositionAnyMoreIsNotFollowingAndIsBroughtToRest) {
-  FlightInMemory flight;
+  SimulatedAutopilotConfig tuned;
+  tuned.tuned = true;
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, tuned);
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   flight.path = along;
   flight.run(4.0);
