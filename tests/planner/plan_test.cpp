@@ -108,7 +108,7 @@ TEST(Planner, NeverReturnsAPlanTheCheckerRejects) {
 }
 
 TEST(Planner, LeavesTheGroundItStandsOnAndComesNoNearer) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Rng rng(seed);
     const Vec3 home(0, 0, 1);
     HorizonRequest request = request_at(kStart, resting_at(home, kStart - Duration{1'000'000}));
