@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/world/obstacle_names.h"
 #include "flight_log/track_sets.h"
 #include "messages/codec.h"
 
@@ -250,8 +251,7 @@ std::int64_t FlightRecord::unread(const std::string& channel) const {
 }
 
 std::string FlightRecord::name_of(std::int64_t obstacle) const {
-  const auto named = obstacle_names.find(obstacle);
-  return fmt::format("obstacle {}{}", obstacle, named == obstacle_names.end() ? "" : " '" + named->second + "'");
+  return "obstacle " + with_name(obstacle, obstacle_names);
 }
 
 const HorizonRequest* FlightRecord::request(const MessageName& name) const {

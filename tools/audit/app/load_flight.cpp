@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/files.h"
+#include "core/world/obstacle_names.h"
 #include "monitor/app/subscribe_flight.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
@@ -38,17 +39,6 @@ std::optional<double> summary_flight_s(const std::string& log) {
   return recorded == fs::path(log).filename() || fs::is_directory(log)
              ? std::optional(summary["flight_time_s"].get<double>())
              : std::nullopt;
-}
-
-/// Names by obstacle. The ids of a world begin with the generator's obstacles (simulator/worlds).
-std::map<std::int64_t, std::string> names_of(const WorldSpec& world) {
-  std::map<std::int64_t, std::string> names;
-  std::int64_t id = world.generator == "none" ? 0 : world.count;
-  for (const ObstacleSpec& obstacle : world.obstacles) {
-    if (!obstacle.name.empty()) names.emplace(id, obstacle.name);
-    ++id;
-  }
-  return names;
 }
 
 /// Explains the flight's end as tern-monitor did, by the same messages.
@@ -87,7 +77,7 @@ Result<FlightRecord> load_flight(const std::string& path) {
       const SemanticsSpec& semantics = scenario.semantics;
       record->regions = semantics.regions;
       record->class_labels.insert(semantics.classes.begin(), semantics.classes.end());
-      record->obstacle_names = names_of(scenario.world);
+      record->obstacle_names = obstacle_names(report.yaml);
       record->why = why(*record, scenario);
       break;
     } catch (const ConfigError&) {
