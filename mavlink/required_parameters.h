@@ -22,7 +22,7 @@ struct RequiredParameter {
   int bits = 0;        ///< bits of an integer that must be set
   /// Not every firmware version has it under this name: its absence is no fault.
   bool may_be_absent = false;
-  const char* also_called = nullptr;  ///< its name in other versions: one of the two is enough
+  const char* also_called = nullptr;  ///< its name in other versions: one of the two is enough.
   /// Set for a bound of the vehicle: the scenario's value that must be within it.
   struct Bound {
     const char* key;       ///< "uav.dynamics.tilt_max"
