@@ -65,7 +65,6 @@ void Bridge::enter(Stage stage, const std::string& why) {
     refusal_.clear();
     landing_seen_ = take_off_asked_ = false;
     if (stage == Stage::Waiting) own_.reset();
-    rests_since_.reset();
     if (stage == Stage::Engaging && !found_) found_ = Found{autopilot_.mode(), autopilot_.armed()};
   }
   stage_ = stage;
@@ -81,7 +80,6 @@ void Bridge::stand_back(const std::string& why) {
 
 void Bridge::receive(const Frame& frame, UTime received) {
   if (!autopilot_.receive(frame, received)) return;
-  tilt_ramp_.add(autopilot_.landed(), received);
   if (frame.id == Heartbeat::kId) watch_mode(received);
   anchor_truth_at_first_sight();
   if (autopilot_.truth()) send_vision(*autopilot_.truth());
@@ -201,7 +199,6 @@ void Bridge::watch_lag() {
 std::string Bridge::not_ready(UTime now) const {
   if (!autopilot_.address()) return "no HEARTBEAT of an autopilot was received";
   if (!autopilot_.linked(now)) return "no message from the autopilot for " + seconds(now - autopilot_.last_received());
-  if (config_.list_parameters) return parameter_list();
   if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
   if (std::string fault = clock_fault(); !fault.empty()) return fault;
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
@@ -209,12 +206,6 @@ std::string Bridge::not_ready(UTime now) const {
   if (!autopilot_.landed()) return "it does not report whether it has landed (EXTENDED_SYS_STATE)";
   if (!config_.check_parameters) return {};
   return parameter_faults(required(), autopilot_.parameters(), parameters_asked_ >= kMaxParameterRounds);
-}
-
-std::string Bridge::parameter_list() const {
-  if (parameters_asked_ < kMaxParameterRounds) return "reads parameters";
-  const std::string changes = parameter_changes(required(), autopilot_.parameters(), config_.raise_bounds);
-  return "mavlink.list_parameters: " + (changes.empty() ? "nothing would be set" : changes);
 }
 
 std::string Bridge::estimate_fault(UTime now) const {
@@ -230,16 +221,6 @@ bool Bridge::is_vision_silent(UTime now) const {
   return config_.external_vision && !(newest && now - *newest <= kStateAge);
 }
 
-/// An ArduPilot has no such limit.
-std::string Bridge::tilt_fault(UTime now) const {
-  if (autopilot_.firmware() != Firmware::Px4) return {};
-  const double rise = autopilot_.parameter("MPC_TILTMAX_AIR", 45.0) - autopilot_.parameter("MPC_TILTMAX_LND", 12.0);
-  const Duration left = tilt_ramp_.remaining(autopilot_.parameter("MPC_TKO_RAMP_T", 3.0), rise, now);
-  if (left == Duration{}) return {};
-  return fmt::format("its tilt is still limited after take-off, for {} (MPC_TKO_RAMP_T, MPC_TILTMAX_LND)",
-                     seconds(left));
-}
-
 std::string Bridge::why_not_following(UTime now) const {
   if (stage_ == Stage::Waiting) {
     const std::string why = not_ready(now);
@@ -252,7 +233,6 @@ std::string Bridge::why_not_following(UTime now) const {
   if (!autopilot_.linked(now)) return "no message from the autopilot for " + seconds(now - autopilot_.last_received());
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
   if (std::string fault = vision_.fault(); !fault.empty()) return fault;
-  if (std::string fault = tilt_fault(now); !fault.empty()) return fault;
   if (!setpoint_received_) return "no SETPOINT was received";
   if (!setpoint_near(now)) return fmt::format("SETPOINT is more than {:g} m from the vehicle", config_.far_m);
   return {};
@@ -348,7 +328,6 @@ void Bridge::step(UTime now) {
     next_timesync_ = now + kTimesyncPeriod;
     send(Timesync{.ts1 = now.us * 1000});
   }
-  if (stage_ == Stage::Landed || ends_) set_back_parameters(now);
   request_streams(now);
   request_mode(now);
   stream(now);

@@ -1,8 +1,6 @@
 // Commanded modes. A pilot's switch has priority over a command of the bridge.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "mavlink/bridge.h"
 
 namespace tern::mavlink {
@@ -17,7 +15,6 @@ constexpr Duration kJustNow{50'000};
 
 void Bridge::request_mode(UTime now) {
   const bool old = autopilot_.mode_is_old();
-  if (old) next_mode_ = std::min(next_mode_, now + kOldModePeriod);
   if (now < next_mode_ || !autopilot_.address() || !(old || flies() || commanded_mode_)) return;
   next_mode_ = now + (old ? kOldModePeriod : kModePeriod);
   request(kRequestMessage, Heartbeat::kId);

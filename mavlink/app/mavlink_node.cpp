@@ -45,24 +45,7 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
 }
 
 MavlinkNode::~MavlinkNode() {
-  if (!exit_code_ && bridge_.flies()) land();
-  set_parameters_back();
-}
-
-void MavlinkNode::set_parameters_back() {
-  bridge_.end_parameters();
-  const UTime end = bus_.clock().now() + kSetBackPatience;
-  for (UTime now = bus_.clock().now(); now < end && bridge_.has_set_parameters() && !is_needed();
-       now = bus_.clock().now()) {
-    exchange(now);
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  if (bridge_.has_set_parameters()) {
-    spdlog::error("parameters of the autopilot were not set back: it is armed or silent (\"sets …\" above has them)");
-  }
-}
-
-void MavlinkNode::land() {
+  if (exit_code_ || !bridge_.flies()) return;
   const UTime end = bus_.clock().now() + kLandPatience;
   bridge_.land("asked to end");
   for (UTime now = bus_.clock().now(); now < end && bridge_.stage() == Stage::Landing; now = bus_.clock().now()) {

@@ -26,11 +26,9 @@ namespace tern::mavlink {
 ///   flies keeps the external vision. It gives up when the link is silent for kLinkPatience, or when it is asked
 ///   again after kSameSignal. It then says that the vehicle is armed, and ends with kExitArmed.
 /// - If an error ends it while it flies, it has the autopilot land, and waits up to kLandPatience for that.
-/// - In the end it sets back the parameters that it has set, if the vehicle is disarmed, within kSetBackPatience.
 class MavlinkNode final : public Node {
  public:
-  static constexpr Duration kLandPatience{30'000'000}, kLinkPatience{10'000'000}, kSameSignal{1'000'000},
-      kSetBackPatience{3'000'000};
+  static constexpr Duration kLandPatience{30'000'000}, kLinkPatience{10'000'000}, kSameSignal{1'000'000};
   static constexpr int kExitArmed = 5;  ///< docs/reference/exit_codes.md
   MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& uav, const BridgeConfig& config,
               std::optional<SigningKey> key);
@@ -53,8 +51,6 @@ class MavlinkNode final : public Node {
   void end_armed(const std::string& why);
   void exchange(UTime now);
   void publish(UTime now);
-  void land();
-  void set_parameters_back();
   void log_lines();
   [[nodiscard]] bool alone(UTime now) const;
 

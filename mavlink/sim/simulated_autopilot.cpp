@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "mavlink/autopilot.h"
 #include "mavlink/axes.h"
@@ -17,10 +16,8 @@ constexpr std::uint8_t kInt32 = 6, kReal32 = 9;
 constexpr std::uint8_t kGroundStation = 6;
 constexpr Duration kOldTarget{500'000}, kStreamFirst{500'000}, kDisarmAfter{1'000'000};
 constexpr Duration kTextsFor{2'500'000};
-/// COM_SPOOLUP_TIME, COM_DISARM_PRFLT, COM_DL_LOSS_T.
-constexpr Duration kSpoolUp{1'000'000}, kTakeOffPatience{10'000'000}, kLinkLoss{10'000'000};
-/// The tilt limit changes at this rate, 0.2 rad/s (MulticopterPositionControl), in degrees/s.
-constexpr double kTiltSlew = 11.46;
+/// COM_SPOOLUP_TIME, MPC_TKO_RAMP_T, COM_DISARM_PRFLT, COM_DL_LOSS_T.
+constexpr Duration kSpoolUp{1'000'000}, kRamp{3'000'000}, kTakeOffPatience{10'000'000}, kLinkLoss{10'000'000};
 /// Share of its speed at the beginning of the ramp.
 constexpr double kRampFrom = 0.02;
 constexpr double kDescend = 0.7, kStop = 4.0;
@@ -38,7 +35,7 @@ bool is_integer(const std::string& name) { return std::ranges::find(kIntegers, n
 /// The configuration without the feed-forward, which the bridge sends.
 QuadrotorConfig bare(const SimulatedAutopilotConfig& config) {
   QuadrotorConfig quadrotor = config.quadrotor;
-  quadrotor.controller.velocity_d = 0.0;
+  quadrotor.controller.velocity_d = config.velocity_d;
   quadrotor.controller.drag_per_s = quadrotor.controller.lead_s = 0.0;
   return quadrotor;
 }
@@ -60,13 +57,7 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
                   {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0},      {"GUID_TIMEOUT", 3.0},
                   {"SIM_EV_JUMP", 8.3},      {"FS_GCS_ENABLE", 0.0},     {"SIM_HOME_UP", 0.0},
                   {"MC_AIRMODE", 0.0},       {"MPC_ACC_DECOUPLE", 1.0},  {"SYSID_MYGCS", 255.0},
-                  {"ANGLE_MAX", 3000.0},     {"PSC_JERK_XY", 5.0},       {"PSC_JERK_Z", 5.0},
-                  {"MPC_TKO_RAMP_T", 3.0},   {"MPC_TILTMAX_LND", 12.0},  {"MPC_Z_VEL_D_ACC", 0.0},
-                  {"MPC_XY_P", 0.95},        {"MPC_XY_VEL_P_ACC", 1.8},  {"MPC_XY_VEL_I_ACC", 0.4},
-                  {"MC_ROLL_P", 6.5}} {
-  parameters_["MPC_THR_HOVER"] = parameters_["MOT_THST_HOVER"] = 1.0 / config.quadrotor.body.thrust_to_weight;
-  if (config.tuned) take_tuned_parameters();
-  tilt_deg_ = parameters_["MPC_TILTMAX_LND"];
+                  {"ANGLE_MAX", 3000.0},     {"PSC_JERK_XY", 5.0},       {"PSC_JERK_Z", 5.0}} {
   model_.set_armed(false);
   tune();
   begin_streams(now);
@@ -254,42 +245,10 @@ void SimulatedAutopilot::set_parameter(const std::string& name, double value) {
   if (name == "SIM_EST_JUMP") model_.jump_estimate(value);
 }
 
-/// A vehicle whose owner has tuned it and knows its bounds.
-void SimulatedAutopilot::take_tuned_parameters() {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  const FlightControllerSpec& gains = config_.quadrotor.controller;
-  parameters_["MPC_XY_P"] = gains.position_p;
-  parameters_["MPC_XY_VEL_P_ACC"] = gains.velocity_p;
-  parameters_["MPC_XY_VEL_I_ACC"] = gains.velocity_i;
-  parameters_["MC_ROLL_P"] = gains.attitude_p;
-  parameters_["MPC_TILTMAX_AIR"] = gains.tilt_max * kDegrees;
-  parameters_["ANGLE_MAX"] = 100.0 * gains.tilt_max * kDegrees;
-  parameters_["MC_ROLLRATE_MAX"] = parameters_["MC_PITCHRATE_MAX"] = gains.rate_max * kDegrees;
-  for (const char* name : {"MPC_XY_VEL_MAX", "MPC_Z_VEL_MAX_UP", "MPC_Z_VEL_MAX_DN"})
-    parameters_[name] = gains.speed_max;
-}
-
-/// PX4's limit is MPC_TILTMAX_LND until the take-off ramp has ended, and changes at kTiltSlew.
-void SimulatedAutopilot::limit_tilt(double dt) {
-  const bool flies = armed_ && ramp_since_ && ramp_ >= 1.0;
-  const double limit = parameters_[is_ardupilot() ? "ANGLE_MAX" : flies ? "MPC_TILTMAX_AIR" : "MPC_TILTMAX_LND"];
-  const double before = std::exchange(
-      tilt_deg_,
-      is_ardupilot() ? limit / 100.0 : std::clamp(limit, tilt_deg_ - kTiltSlew * dt, tilt_deg_ + kTiltSlew * dt));
-  if (tilt_deg_ != before) tune();
-}
-
 void SimulatedAutopilot::tune() {
   constexpr double kRadians = std::numbers::pi / 180.0;
   FlightControllerSpec gains = bare(config_).controller;
-  if (!is_ardupilot()) {
-    gains.position_p = parameters_["MPC_XY_P"];
-    gains.velocity_p = parameters_["MPC_XY_VEL_P_ACC"];
-    gains.velocity_i = parameters_["MPC_XY_VEL_I_ACC"];
-    gains.velocity_d = parameters_["MPC_XY_VEL_D_ACC"];
-    gains.attitude_p = parameters_["MC_ROLL_P"];
-  }
-  gains.tilt_max = tilt_deg_ * kRadians;
+  gains.tilt_max = parameters_["MPC_TILTMAX_AIR"] * kRadians;
   gains.rate_max = std::min(parameters_["MC_ROLLRATE_MAX"], parameters_["MC_PITCHRATE_MAX"]) * kRadians;
   gains.speed_max = ramp_ * std::hypot(parameters_["MPC_XY_VEL_MAX"], parameters_["MPC_Z_VEL_MAX_UP"]);
   model_.tune(gains);
@@ -355,7 +314,7 @@ bool SimulatedAutopilot::rotors_lift(UTime t) {
   if (!armed_) return false;
   if (is_ardupilot()) return ardupilots_rotors_lift(t);
   if (ramp_since_) {
-    const double progress = std::min((t - *ramp_since_).seconds() / std::max(parameters_["MPC_TKO_RAMP_T"], 1e-3), 1.0);
+    const double progress = std::min((t - *ramp_since_).seconds() / kRamp.seconds(), 1.0);
     if (ramp_ < 1.0) {
       ramp_ = std::max(progress, kRampFrom);
       tune();
@@ -389,7 +348,6 @@ void SimulatedAutopilot::fly(UTime now) {
     command_.motion.j = Vec3::Zero();
     model_.command(command_);
     model_.set_armed(rotors_lift(t));
-    limit_tilt(kVehicleStep.seconds());
     model_.advance(t);
     if (!model_.truth().on_ground || mode_ != Mode::Land || !armed_) {
       landed_since_.reset();

@@ -16,13 +16,12 @@ enum class Manners : std::uint8_t { Px4, ArduPilot };
 
 /// The section `autopilot_sim`.
 ///
-/// Of `quadrotor.controller`, drag_per_s and lead_s are ignored: they are the bridge's. The simulated PX4 has its gains
-/// and limits from its parameters, the simulated ArduPilot its limits.
+/// Six keys of `quadrotor.controller` are ignored: an autopilot has velocity_d, tilt_max, rate_max and speed_max from
+/// its parameters, and leaves drag_per_s and lead_s to the bridge.
 struct SimulatedAutopilotConfig {
   Manners manners = Manners::Px4;
   double clock_rate = 0.99;
   double velocity_d = 0.2;
-  bool tuned = false;
   Duration answer_after{100'000};
   Duration busy_for{2'000'000};
   QuadrotorConfig quadrotor;  ///< this and the next two are read from the section `simulator`
@@ -38,8 +37,6 @@ struct SimulatedAutopilotConfig {
     v("busy_s", busy_for, Range{0.0, 60.0}, "how long the autopilot rejects commands temporarily after its start, s");
     v("velocity_d", velocity_d, Range{0.0, 2.0},
       "MPC_XY_VEL_D_ACC: D gain of the velocity loop, which opposes the whole acceleration");
-    v("tuned", tuned,
-      "its parameters are the gains and limits of `simulator.quadrotor.controller`; false: the firmware's defaults");
   }
 };
 
@@ -55,8 +52,6 @@ struct SimulatedAutopilotConfig {
 /// | setpoints cease | after COM_OF_LOSS_T: COM_OBL_RC_ACT            | after GUID_TIMEOUT: stops, in GUIDED         |
 /// | setpoints again | returns to OFFBOARD                            | follows them                                 |
 /// | take-off        | by setpoints: spin-up 1 s, speed ramp 3 s      | by NAV_TAKEOFF; a setpoint ends it           |
-/// | tilt limit      | MPC_TILTMAX_LND (12°) until the speed ramp has | ANGLE_MAX                                    |
-/// |                 | ended, then 11.5°/s up to MPC_TILTMAX_AIR      |                                              |
 /// | no take-off     | disarms after 10 s                             | disarms after 10 s                           |
 /// | after landing   | disarms; the mode is that before landing       | disarms; stays in LAND                       |
 /// | parameters      | integers bytewise; only the right type is set  | numbers, of any type                         |
@@ -123,8 +118,6 @@ class SimulatedAutopilot {
   void jump_up(double metres);
   void receive_target(const SetPositionTargetLocalNed& target, UTime now);
   void set_parameter(const std::string& name, double value);
-  void take_tuned_parameters();
-  void limit_tilt(double dt);
   void tune();
   void send_parameter(const std::string& name);
   void watch_offboard(UTime now);
@@ -162,7 +155,6 @@ class SimulatedAutopilot {
   std::optional<double> takes_off_to_;  ///< in the estimate's frame, m
   bool guided_ = false;                 ///< setpoints were received since GUIDED began
   double ramp_ = 1.0;                   ///< share of its speed during take-off
-  double tilt_deg_ = 0.0;               ///< present tilt limit
   UTime last_step_, now_;
   double battery_ = 0.9;
   std::map<std::string, double> parameters_;

@@ -12,9 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(Estimate, AVehicleThatSaysNoPositionAnyMoreIsNotFollowingAndIsBroughtToRest) {
-  SimulatedAutopilotConfig tuned;
-  tuned.tuned = true;
-  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, tuned);
+  FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   flight.path = along;
   flight.run(4.0);

@@ -192,7 +192,6 @@ TEST(Px4Manners, SetpointsAreHeldOrCarriedOnAndTheVehicleIsNotLateForThat) {
        {std::pair(Manners::Px4, 20.0), std::pair(Manners::Px4, 50.0), std::pair(Manners::ArduPilot, 20.0)}) {
     SimulatedAutopilotConfig autopilot;
     autopilot.manners = manners;
-    autopilot.tuned = true;  // its integral has settled before it is measured
     FlightInMemory flight({.start = Start::Arm, .rate_hz = rate, .set_parameters = true}, autopilot);
     ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
     flight.path = straight;
