@@ -38,8 +38,8 @@ struct Matching {
 /// 4. A detection that is still free goes to the track of its id, if that is free.
 /// A track without a detection costs more than any pair within the gate, so as many pairs as possible are made.
 ///
-/// It takes O(t log d) for t tracks and d detections, and kMaxCandidates costs for each track at most. If all detections
-/// lie in the gates of all tracks, it also compares t·d positions.
+/// It takes O(t log d) for t tracks and d detections, and kMaxCandidates costs for each track at most. If all
+/// detections lie in the gates of all tracks, it also compares t·d positions.
 /// @pre objects ascend by id
 Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
                const MatchCost& match_cost, const GateBox& gate_box);

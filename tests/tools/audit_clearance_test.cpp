@@ -5,10 +5,10 @@
 
 #include <cmath>
 
+#include "core/world/body_distance.h"
 #include "flight_log/log_writer.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
-#include "core/world/body_distance.h"
 #include "simulator/worlds/declared_motions.h"
 #include "simulator/worlds/world.h"
 #include "tests/support/random_splines.h"

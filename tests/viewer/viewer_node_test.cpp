@@ -157,10 +157,11 @@ TEST_F(LogPlayerTest, ReadsPaceAndCauseFromTheSummaryBesideTheLog) {
   auto player = LogPlayer::open(folder.file("flight.lcm"), "");
   ASSERT_TRUE(player);
   EXPECT_EQ(player->note().why, "stood since 4.0 s");
-  const json chart = json::parse(
-      player->memory().history.chart_json(player->begin(), player->end(), {"PLAN_TIMING.allowed_ms"}));
+  const json chart =
+      json::parse(player->memory().history.chart_json(player->begin(), player->end(), {"PLAN_TIMING.allowed_ms"}));
   EXPECT_EQ(chart["series"]["PLAN_TIMING.allowed_ms"][1].back(), 140.0) << "by the clock of total_ms";
-  for (const char* text : {"", "{", "[]", R"({"pace": 0, "why": 7})", R"({"pace": "1", "why": null})", R"({"pace": 2})"}) {
+  for (const char* text :
+       {"", "{", "[]", R"({"pace": 0, "why": 7})", R"({"pace": "1", "why": null})", R"({"pace": 2})"}) {
     std::ofstream(folder.file("summary.json")) << text;
     EXPECT_EQ(read_flight_note(folder.file("flight.lcm")).pace, 1.0) << text;
     EXPECT_EQ(read_flight_note(folder.file("flight.lcm")).why, "") << text;
