@@ -181,8 +181,8 @@ TEST_F(BadInput, AFloodIsBoundedSaidAndCostsNoNearTrack) {
   const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
   watch(1.5, [&](double t) {
     std::vector<Detection> detections{detection_of(walker(t), kNoise, rng_)};
-    while (detections.size() < kMaxDetections) {  // leaves on a wall: anywhere in each frame, near each other
-      const Vec3 leaf(rng_.uniform(3, 17), rng_.uniform(4.5, 5), rng_.uniform(0, 2));
+    while (detections.size() < kMaxDetections) {  // leaves of a wood: at new places in each frame
+      const Vec3 leaf(rng_.uniform(-40, 40), rng_.uniform(4.5, 40), rng_.uniform(0, 4));
       detections.push_back(detection_of(leaf, kNoise, rng_));
     }
     return detections;
