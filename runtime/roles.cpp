@@ -63,7 +63,7 @@ const std::vector<ProcessRole>& process_roles() {
       {"tern-logger", Role::Observer, {}},
       {"tern-monitor", Role::Observer,
        names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kSemanticMap,
-                kObstacleTruth, kVehicleTruth, kFlightResult)},
+                kObstacleObservations, kPredictions, kObstacleTruth, kVehicleTruth, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
   };
   return kProcessRoles;

@@ -189,8 +189,7 @@ TEST_F(BadInput, AFloodIsBoundedSaidAndCostsNoNearTrack) {
   });
   EXPECT_TRUE(says("overloaded: ")) << node_->health().waiting_for;
   EXPECT_EQ(unheard(), 0);
-  ASSERT_FALSE(sets_.empty());
-  EXPECT_GT(sets_.back().left_out, 0);
+  EXPECT_TRUE(std::ranges::any_of(sets_, [](const auto& set) { return set.left_out > 0; }));
   EXPECT_LE(most_tracks(0.0, 1.5), kMaxAnonymousTracks);
   EXPECT_GE(held(walker, 0.5, 1.5, 0.3), 0.99);
 }
