@@ -47,7 +47,7 @@ std::optional<Role> role_of(std::string_view channel) {
 }
 
 const std::vector<ProcessRole>& process_roles() {
-  static const std::vector<ProcessRole> kProcessRoles = {
+  static const std::vector<ProcessRole> processes = {
       {"tern-simulator", Role::Vehicle,
        names_of(kUavState, kSetpoint, kVehicleStatus, kObstacleObservations, kDeclaredMotions, kHorizonRequest, kPlan,
                 kObstacleTruth, kVehicleTruth, kFlightResult, kGoal, kSemanticMap)},
@@ -66,7 +66,7 @@ const std::vector<ProcessRole>& process_roles() {
                 kObstacleObservations, kPredictions, kObstacleTruth, kVehicleTruth, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
   };
-  return kProcessRoles;
+  return processes;
 }
 
 std::optional<Role> role_of_process(std::string_view process) {
