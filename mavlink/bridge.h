@@ -73,8 +73,8 @@ const char* to_string(Stage stage);
 ///
 /// SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
 /// vehicle is commanded to stop, and VEHICLE_STATUS reports *not following*. With a dead estimate it is to stop at the
-/// last setpoint. While the estimate is apart from external vision (VisionCheck), the vehicle is commanded to stay where
-/// the autopilot estimates it at each moment. Any other setpoint would move it.
+/// last setpoint. While the estimate is apart from external vision (VisionCheck), the vehicle is commanded to stay
+/// where the autopilot estimates it at each moment. Any other setpoint would move it.
 ///
 /// **Setpoints.** SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz, with p and v of the command, the yaw, and
 /// acceleration_gain·a(now + lead_s) + drag_per_s·v. The gain applies to the horizontal axes: the vertical loop of an
