@@ -62,7 +62,7 @@ class FlightEvidence {
   [[nodiscard]] const std::vector<double>& answer_ms() const { return answer_ms_; }
   /// Since when the vehicle has stood; nullopt if it moves.
   [[nodiscard]] std::optional<UTime> stood_since() const;
-  /// When the vehicle came nearer to its goal the last time, by kProgress.
+  /// The last time at which the vehicle had come nearer to its goal by kProgress.
   [[nodiscard]] UTime progress_at() const { return progress_at_; }
   /// The reason why the vehicle has ceased to follow; nullopt if it follows, or never did.
   [[nodiscard]] const std::optional<Complaint>& not_following() const { return not_following_; }

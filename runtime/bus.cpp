@@ -96,7 +96,10 @@ struct Bus::ChannelState {
   ReplayGuard guard;      ///< with keys
   LogLimiter reject_log, send_log;
   RefusalRate refused;
-  std::string why;  ///< in words, of the newest refusal
+  std::string why;          ///< in words, of the newest refusal
+  std::string description;  ///< in words, of the last message refused for its fields that was looked into …
+  std::optional<Rejection> described;  ///< … its reason …
+  UTime described_at;                  ///< … and when
   std::deque<Encoder> unsent;
   UTime due = kNever;
 };
@@ -268,7 +271,14 @@ void Bus::reject(const std::string& name, Rejection reason) {
   ChannelState& channel = state_->channel(name);
   channel.admitted = false;
   if (std::exchange(channel.counted, true)) return;
-  channel.why = describe(name, reason, state_->delivered);
+  // Naming the field decodes the message again, so in a flood it is done once per interval and reason.
+  const UTime now = clock_.now();
+  if (channel.described != reason || now - channel.described_at >= kLogInterval || now < channel.described_at) {
+    channel.description = describe(name, reason, state_->delivered);
+    channel.described = reason;
+    channel.described_at = now;
+  }
+  channel.why = channel.description;
   count_refused(channel, reason);
 }
 

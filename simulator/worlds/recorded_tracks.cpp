@@ -50,7 +50,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// What the rows' times count from, in frames: 0, or the first frame if times are too large, as Unix times are.
+/// Returns the origin of the rows' times, in frames: 0, or the first frame if the times are as large as Unix times.
 double origin_of(const std::vector<TrackRow>& rows, double rate) {
   const auto [first, last] = std::ranges::minmax(rows, {}, &TrackRow::frame);
   const double most = std::max(std::abs(first.frame), std::abs(last.frame)) / rate;

@@ -1,4 +1,4 @@
-// What held the vehicle, by the messages of made-up flights: the sentence names cause, time, evidence and remedy.
+// Made-up flights: the sentence names the cause that held the vehicle, its time, the evidence and a remedy.
 #include "monitor/flight_cause.h"
 
 #include <gmock/gmock.h>
