@@ -35,9 +35,9 @@ std::string wrong_spec(const RecordedTracksSpec& spec) {
   return {};
 }
 
-/// A track is cut where it has no position for longer than this: for kGapSteps of its median steps, and kMinGap_s.
+/// A track is cut where it has no position for longer than this: for kGapSteps of its median steps, and kMinGap.
 constexpr double kGapSteps = 10.0;
-constexpr double kMinGap_s = 2.0;
+constexpr double kMinGap = 2.0;  // s
 /// A step is called a jump if it is this much faster than the track's median, and than kMinJumpSpeed. A step faster
 /// than kMaxSpeed is one in any case: two objects with one id make every step a jump.
 constexpr double kJumpRatio = 5.0;
@@ -52,9 +52,9 @@ double median_of(std::vector<double> values) {
 
 /// Returns the origin of the rows' times, in frames: 0, or the first frame if the times are as large as Unix times.
 double origin_of(const std::vector<TrackRow>& rows, double rate) {
-  const auto [first, last] = std::ranges::minmax(rows, {}, &TrackRow::frame);
-  const double most = std::max(std::abs(first.frame), std::abs(last.frame)) / rate;
-  return most > WorldObstacle::kMaxCoordinate ? first.frame : 0.0;
+  const auto [first, last] = std::ranges::minmax_element(rows, {}, &TrackRow::frame);
+  const double most = std::max(std::abs(first->frame), std::abs(last->frame)) / rate;
+  return most > WorldObstacle::kMaxCoordinate ? first->frame : 0.0;
 }
 
 /// How many rows were treated in which way.
@@ -115,7 +115,7 @@ void add_parts(RecordedTrack track, std::vector<RecordedTrack>& parts, RowCounts
   for (std::size_t k = 1; k < track.points.size(); ++k) {
     steps.push_back(track.points[k].first - track.points[k - 1].first);
   }
-  const double gap = steps.empty() ? 0.0 : std::max(kMinGap_s, kGapSteps * median_of(steps));
+  const double gap = steps.empty() ? 0.0 : std::max(kMinGap, kGapSteps * median_of(steps));
   RecordedTrack part{track.id, {}, 0};
   const auto finish = [&] {
     find_jumps(part, counts);
@@ -150,7 +150,7 @@ std::vector<std::string> remarks_on(const std::string& name, const TrackRows& ro
          fmt::format("the rows of {} tracks were not in the order of time; they are sorted", counts.sorted));
   remark(counts.cut > 0,
          fmt::format("tracks are cut at {} gaps longer than {:g} s and {:g} steps; an id may name different objects",
-                     counts.cut, kMinGap_s, kGapSteps));
+                     counts.cut, kMinGap, kGapSteps));
   remark(counts.alone > 0, fmt::format("{} positions are left out: they stand alone between gaps", counts.alone));
   remark(counts.jumps > 0,
          fmt::format(
