@@ -1,4 +1,6 @@
 // Tern's names for Eigen types, and the conversion from signed counts to the unsigned subscripts of std containers.
+// Inline functions of core's headers are written by coordinate: each source that reads an Eigen expression compiles
+// it anew, whether the source calls the function or not.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,10 +18,16 @@ using Points = Eigen::Matrix3Xd;
 using Box = Eigen::AlignedBox3d;
 
 /// Returns the box with centre c and half-extents h.
-inline Box box_around(const Vec3& c, const Vec3& h) { return {c - h, c + h}; }
+inline Box box_around(const Vec3& c, const Vec3& h) {
+  return {Vec3(c.x() - h.x(), c.y() - h.y(), c.z() - h.z()), Vec3(c.x() + h.x(), c.y() + h.y(), c.z() + h.z())};
+}
 
 /// Returns the box enlarged by g (m per axis, each ≥ 0) on both sides of each axis.
-inline Box grown(const Box& b, const Vec3& g) { return {b.min() - g, b.max() + g}; }
+inline Box grown(const Box& b, const Vec3& g) {
+  const Vec3 &low = b.min(), &high = b.max();
+  return {Vec3(low.x() - g.x(), low.y() - g.y(), low.z() - g.z()),
+          Vec3(high.x() + g.x(), high.y() + g.y(), high.z() + g.z())};
+}
 
 /// Returns `i` as a subscript of a std container: `candidates[idx(interval)]`, `counts[idx(outcome)]`.
 /// @pre i ≥ 0; this is not checked

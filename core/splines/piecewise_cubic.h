@@ -39,7 +39,10 @@ struct PiecewiseCubic {
 MotionSample sample_cubic(const PowerCubic& coefficients, double tau_s);
 /// Returns the position of a cubic at τ seconds.
 inline Vec3 position_of(const PowerCubic& c, double tau_s) {
-  return ((c.col(0) * tau_s + c.col(1)) * tau_s + c.col(2)) * tau_s + c.col(3);
+  const auto along = [&](int axis) {
+    return ((c(axis, 0) * tau_s + c(axis, 1)) * tau_s + c(axis, 2)) * tau_s + c(axis, 3);
+  };
+  return {along(0), along(1), along(2)};
 }
 
 /// Returns the largest |velocity| per axis of a cubic on [t0, t1]. It is exact: the velocity is a parabola, whose

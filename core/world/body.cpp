@@ -22,6 +22,8 @@ bool is_box(const Points& vertices, const Box& bounds) {
 
 }  // namespace
 
+Vec3 Body::half_extents() const { return vertices.cwiseAbs().rowwise().maxCoeff().array() + radius; }
+
 Box body_box(const Body& body) {
   return {body.vertices.rowwise().minCoeff().array() - body.radius,
           body.vertices.rowwise().maxCoeff().array() + body.radius};

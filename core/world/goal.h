@@ -23,6 +23,9 @@ struct Goal {
 };
 
 /// Whether two goals ask for the same, whatever their ids and headers.
-inline bool same_goal(const Goal& a, const Goal& b) { return a.mode == b.mode && a.position == b.position; }
+inline bool same_goal(const Goal& a, const Goal& b) {
+  return a.mode == b.mode && a.position.x() == b.position.x() && a.position.y() == b.position.y() &&
+         a.position.z() == b.position.z();
+}
 
 }  // namespace tern

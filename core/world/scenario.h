@@ -101,7 +101,7 @@ struct UavSpec {
   Vec3 goal = Vec3(75.0, -1.0, 1.0);  ///< W, m
   Limits limits;
   Body body;
-  Box flight_box{Vec3::Constant(-1e4), Vec3::Constant(1e4)};  ///< the body stays inside, W, m
+  Box flight_box = box_around(Vec3::Zero(), Vec3::Constant(1e4));  ///< the body stays inside, W, m
 };
 
 /// A scenario, without the sections of the processes.

@@ -62,7 +62,7 @@ struct Body {
   double radius = 0.1;                   ///< m, ≥ 0
 
   /// Returns the half-extents of the smallest box that is centred on the position and contains the body, m.
-  [[nodiscard]] Vec3 half_extents() const { return vertices.cwiseAbs().rowwise().maxCoeff().array() + radius; }
+  [[nodiscard]] Vec3 half_extents() const;
 };
 
 /// UAV_STATE, SETPOINT, VEHICLE_TRUTH: the state as estimated, as commanded, as it really is.

@@ -29,18 +29,23 @@ struct VoxelGrid {
   /// Returns the voxel with an index.
   [[nodiscard]] Eigen::Vector3i cell(std::int64_t index) const;
   [[nodiscard]] bool contains(const Eigen::Vector3i& v) const {
-    return (v.array() >= 0).all() && (v.array() < size.array()).all();
+    return v.x() >= 0 && v.x() < size.x() && v.y() >= 0 && v.y() < size.y() && v.z() >= 0 && v.z() < size.z();
   }
   /// Returns the voxel that contains p (W, m); it may lie outside the grid.
   [[nodiscard]] Eigen::Vector3i cell_of(const Vec3& p) const;
+  /// Returns the lower corner of a voxel, W, m.
+  [[nodiscard]] Vec3 corner(const Eigen::Vector3i& v) const {
+    return {origin.x() + resolution * v.x(), origin.y() + resolution * v.y(), origin.z() + resolution * v.z()};
+  }
   [[nodiscard]] Vec3 centre(const Eigen::Vector3i& v) const {
-    return origin + resolution * (v.cast<double>() + Vec3::Constant(0.5));
+    return {origin.x() + resolution * (v.x() + 0.5), origin.y() + resolution * (v.y() + 0.5),
+            origin.z() + resolution * (v.z() + 0.5)};
   }
   [[nodiscard]] Box box(const Eigen::Vector3i& v) const {
-    const Vec3 low = origin + resolution * v.cast<double>();
-    return {low, low + Vec3::Constant(resolution)};
+    const Vec3 low = corner(v);
+    return {low, Vec3(low.x() + resolution, low.y() + resolution, low.z() + resolution)};
   }
-  [[nodiscard]] Box bounds() const { return {origin, origin + resolution * size.cast<double>()}; }
+  [[nodiscard]] Box bounds() const { return {origin, corner(size)}; }
 };
 
 /// A labelled grid. A map does not change once it is made; its digest names it.

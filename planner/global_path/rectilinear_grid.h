@@ -1,6 +1,7 @@
 // A grid of nodes at the crossings of three sets of unevenly spaced lines.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <tuple>
 #include <utility>
@@ -16,7 +17,9 @@ struct RectilinearGrid {
   GridAxis axis[3];
 
   [[nodiscard]] Cell size() const { return {axis[0].size(), axis[1].size(), axis[2].size()}; }
-  [[nodiscard]] std::int64_t nodes() const { return size().cast<std::int64_t>().prod(); }
+  [[nodiscard]] std::int64_t nodes() const {
+    return static_cast<std::int64_t>(axis[0].size()) * axis[1].size() * axis[2].size();
+  }
   [[nodiscard]] Vec3 low() const { return {axis[0].low(), axis[1].low(), axis[2].low()}; }
   [[nodiscard]] Vec3 high() const { return {axis[0].high(), axis[1].high(), axis[2].high()}; }
   [[nodiscard]] std::int32_t index(const Cell& c) const {
@@ -44,8 +47,12 @@ struct RectilinearGrid {
   /// Calls visit(node) for the existing nodes c − below … c + above, in order of their numbers.
   template <class Visit>
   void for_neighbours(const Cell& c, int below, int above, const Visit& visit) const {
-    const Cell from = (c - Cell::Constant(below)).cwiseMax(0);
-    const Cell to = (c + Cell::Constant(above)).cwiseMin(size() - Cell::Ones());
+    Cell from;
+    Cell to;
+    for (int i = 0; i < 3; ++i) {
+      from[i] = std::max(c[i] - below, 0);
+      to[i] = std::min(c[i] + above, axis[i].size() - 1);
+    }
     for (int z = from.z(); z <= to.z(); ++z) {
       for (int y = from.y(); y <= to.y(); ++y) {
         const std::int32_t row = index({0, y, z});

@@ -125,6 +125,8 @@ bool SemanticFields::has(VoxelLabel label) const {
   return std::any_of(groups_.begin(), groups_.end(), [&](const Group& g) { return g.label == label; });
 }
 
+bool SemanticFields::has_weight() const { return !influence_.isEmpty(); }
+
 bool SemanticFields::varies_in(const Box& box) const {
   return std::any_of(groups_.begin(), groups_.end(),
                      [&](const Group& g) { return g.lambda > 0.0 && g.band.window().intersects(box); });

@@ -68,7 +68,7 @@ class SemanticFields {
   /// Returns whether there are voxels of this label: Attractive or Repulsive.
   [[nodiscard]] bool has(VoxelLabel label) const;
   /// Returns whether any voxel has a positive λ.
-  [[nodiscard]] bool has_weight() const { return !influence_.isEmpty(); }
+  [[nodiscard]] bool has_weight() const;
 
   /// Outside this box the exposure cost per metre is λ*, the strongest attraction. The box is empty if no λ is
   /// positive.
