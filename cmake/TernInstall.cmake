@@ -1,32 +1,6 @@
 # `cmake --install`: the programs with tern-viewer's page, if it was built; what they fly and the scripts (share/tern);
-# the messages for other languages. core/ is a package for others (find_package(tern); target tern::core).
-include(GNUInstallDirs)
-include(CMakePackageConfigHelpers)
-
-set(TERN_CORE_LIBRARIES tern_base tern_convex_hull tern_geometry tern_splines tern_world)
-set(TERN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tern)
-
-# tern::core stands for all of core/; tern::base, tern::geometry and so on are its parts.
-add_library(tern_core INTERFACE)
-target_link_libraries(tern_core INTERFACE ${TERN_CORE_LIBRARIES})
-target_compile_features(tern_core INTERFACE cxx_std_20)
-foreach(library tern_core ${TERN_CORE_LIBRARIES})
-  string(REGEX REPLACE "^tern_" "" name ${library})
-  set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
-endforeach()
-
-install(TARGETS tern_core ${TERN_CORE_LIBRARIES} EXPORT tern-targets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/ DESTINATION include/tern/core COMPONENT core
-        FILES_MATCHING PATTERN "*.h")
-install(EXPORT tern-targets NAMESPACE tern:: DESTINATION ${TERN_PACKAGE_DIR} COMPONENT core)
-
-configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tern-config.cmake.in ${PROJECT_BINARY_DIR}/tern-config.cmake
-                              INSTALL_DESTINATION ${TERN_PACKAGE_DIR})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/tern-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/tern-config.cmake ${PROJECT_BINARY_DIR}/tern-config-version.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/FindGLPK.cmake
-        DESTINATION ${TERN_PACKAGE_DIR} COMPONENT core)
+# the messages for other languages; the libraries (TernPackage.cmake).
+include(TernPackage)
 
 # Programs are the executables named tern-…; tests and benchmarks stay behind. `apps` builds them all.
 add_custom_target(apps)

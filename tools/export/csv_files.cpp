@@ -1,36 +1,19 @@
 #include "tools/export/csv_files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string_view>
+
+#include "tools/export/columns.h"
 
 namespace tern::exporting {
 namespace {
 
 using Form = MessageField::Form;
 
-void append_columns(std::string& head, const std::string& name, const MessageField& field, const std::string& unit);
-
-/// @param prefix  "" or ends with a dot
-void append_columns(std::string& head, const std::string& prefix, const MessageType& type, const std::string& unit) {
-  for (const MessageField& field : type.fields) {
-    const std::string own = field.unit.empty() ? unit : field.unit;
-    if (field.form == Form::FixedArray) {
-      for (int k = 0; k < field.size; ++k)
-        append_columns(head, fmt::format("{}{}.{}", prefix, field.name, k), field, own);
-    } else if (field.form != Form::List) {
-      append_columns(head, prefix + field.name, field, own);
-    }
-  }
-}
-
-void append_columns(std::string& head, const std::string& name, const MessageField& field, const std::string& unit) {
-  const auto nested = message_types().find(field.type);
-  if (nested != message_types().end()) {
-    append_columns(head, name.empty() ? "" : name + ".", nested->second, unit);
-  } else {
-    head += "," + (name.empty() ? field.name : name) + (unit.empty() ? "" : " [" + unit + "]");
-  }
+std::string head_of(const char* first_columns, const std::vector<std::string>& columns) {
+  return fmt::format("{},{}", first_columns, fmt::join(columns, ","));
 }
 
 std::string csv_text(std::string_view text) {
@@ -64,8 +47,8 @@ CsvFiles::Table& CsvFiles::table(const std::string& name, const std::string& hea
 
 void CsvFiles::add(const LoggedMessage& message) {
   const MessageType& type = message_types().find(message.type)->second;
-  std::string head = "message,received_us";
-  if (!tables_.contains(message.channel)) append_columns(head, "", type, "");
+  std::string head;
+  if (!tables_.contains(message.channel)) head = head_of("message,received_us", column_names(type));
   Table& messages = table(message.channel, head);
   std::string row = fmt::format("{},{}", messages.rows, message.received_us);
   for (const MessageField& field : type.fields) {
@@ -74,9 +57,7 @@ void CsvFiles::add(const LoggedMessage& message) {
       append_cells(row, value);
       continue;
     }
-    std::string list_head = "message,index";
-    append_columns(list_head, "", field, field.unit);
-    Table& list = table(message.channel + "." + field.name, list_head);
+    Table& list = table(message.channel + "." + field.name, head_of("message,index", column_names(field)));
     for (std::size_t k = 0; k < value.size(); ++k) {
       std::string element = fmt::format("{},{}", messages.rows, k);
       append_cells(element, value[k]);

@@ -13,52 +13,24 @@
 #include "runtime/config.h"
 #include "runtime/platform.h"
 #include "tools/replay/extract.h"
+#include "tools/replay/recorded_problems.h"
 #include "tools/replay/replan.h"
 
 namespace tern {
 namespace {
 
-/// Replays each answer when its prediction set is complete.
+/// Plans answers again.
 class Replayer {
  public:
   Replayer(const RecordedInputs& inputs, const ReplayOptions& options)
-      : inputs_(inputs), has_other_settings_(!options.other.empty()), rebuilder_(inputs, options.other) {
-    for (std::size_t k = 0; k < inputs.plans.size(); ++k) {
-      if (!is_chosen(inputs.plans[k], inputs.log, options)) continue;
-      const PlanInputs& names = inputs.plans[k].plan.inputs;
-      waiting_[{names.predictions.sender_epoch_us, names.prediction_set}].push_back(k);
-    }
-    replay_those_of({0, 0});  ///< answers STALE_WORLD name no predictions
-  }
-
-  void add(TrackSet set) {
-    const SetName name{set.header.name.sender_epoch_us, set.batch.set};
-    rebuilder_.add(std::move(set));
-    replay_those_of(name);
-  }
-
-  std::vector<ReplayedPlan> finish() {
-    while (!waiting_.empty()) replay_those_of(SetName(waiting_.begin()->first));
-    std::ranges::sort(done_, [](const auto& a, const auto& b) { return a.index < b.index; });
-    return std::move(done_);
-  }
-
- private:
-  using SetName = std::pair<std::int64_t, std::int64_t>;  // sender epoch, set
-
-  void replay_those_of(const SetName& name) {
-    const auto found = waiting_.find(name);
-    if (found == waiting_.end()) return;
-    for (const std::size_t k : found->second) done_.push_back(replay_or_say_why(k));
-    waiting_.erase(found);
-  }
+      : inputs_(inputs), has_other_settings_(!options.other.empty()) {}
 
   /// Plans an answer again. If the planner throws on recorded inputs, that counts as a difference, and the replay goes
   /// on.
   /// @throws ConfigError for what-if settings that the planner refuses
-  ReplayedPlan replay_or_say_why(std::size_t index) {
+  ReplayedPlan replay_or_say_why(std::size_t index, WorldRebuilder& world) const {
     try {
-      return replay(index);
+      return replay(index, world);
     } catch (const std::exception& e) {
       const bool is_users = has_other_settings_ && dynamic_cast<const ConfigError*>(&e) != nullptr;
       if (is_users) throw;
@@ -71,12 +43,13 @@ class Replayer {
     }
   }
 
-  ReplayedPlan replay(std::size_t index) {
+ private:
+  ReplayedPlan replay(std::size_t index, WorldRebuilder& world) const {
     const RecordedPlan& recorded = inputs_.plans[index];
     ReplayedPlan result;
     result.index = index;
     result.tolerance_reason = tolerance_reason(inputs_, recorded.plan);
-    const auto problem = rebuilder_.problem_of(recorded.plan);
+    const auto problem = world.problem_of(recorded.plan);
     if (!problem) {
       result.missing = problem.error().message;
       return result;
@@ -90,9 +63,6 @@ class Replayer {
 
   const RecordedInputs& inputs_;
   bool has_other_settings_;
-  WorldRebuilder rebuilder_;
-  std::map<SetName, std::vector<std::size_t>> waiting_;  ///< answers by the set that they name
-  std::vector<ReplayedPlan> done_;
 };
 
 /// @return an Error if the log has answers and none is selected
@@ -172,12 +142,14 @@ Result<Replay> replay_log(const std::string& path, const ReplayOptions& options)
   if (!inputs) return tl::make_unexpected(inputs.error());
   if (inputs->log.events == 0) return fail(path + ": holds no complete message");
   if (auto chosen = check_choice(*inputs, options); !chosen) return tl::make_unexpected(chosen.error());
-  Replayer replayer(*inputs, options);
-  auto predictions = read_prediction_sets(path, options.suffix, [&](TrackSet set) { replayer.add(std::move(set)); });
-  if (!predictions) return tl::make_unexpected(predictions.error());
   Replay replay;
+  const Replayer replayer(*inputs, options);
+  auto predictions = visit_answers(path, *inputs, options, [&](std::size_t index, WorldRebuilder& world) {
+    replay.plans.push_back(replayer.replay_or_say_why(index, world));
+  });
+  if (!predictions) return tl::make_unexpected(predictions.error());
+  std::ranges::sort(replay.plans, [](const auto& a, const auto& b) { return a.index < b.index; });
   replay.suffix = options.suffix;
-  replay.plans = replayer.finish();
   replay.predictions = std::move(*predictions);
   replay.inputs = std::move(*inputs);
   return replay;
