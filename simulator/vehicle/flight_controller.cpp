@@ -39,7 +39,7 @@ Vec3 FlightController::thrust_for(const Vec3& acceleration) const {
 Vec3 FlightController::rates_for(const Vec3& thrust, const FlightCommand& command,
                                  const FlightEstimate& estimate) const {
   const Vec3 up = estimate.q * Vec3::UnitZ();
-  const Eigen::Quaterniond tilt = Eigen::Quaterniond::FromTwoVectors(up, thrust);
+  const Eigen::Quaterniond tilt = smallest_rotation(up, thrust);
   const Eigen::Quaterniond tilted = tilt * estimate.q;
   // The remaining heading error is about the thrust's axis.
   const Vec3 z = thrust.normalized();

@@ -126,6 +126,21 @@ QuadrotorState standing(const QuadrotorSpec& spec, const Vec3& p, double yaw) {
   return state;
 }
 
+Eigen::Quaterniond smallest_rotation(const Vec3& from, const Vec3& to) {
+  const Vec3 a = from.normalized(), b = to.normalized();
+  const double cosine = b.dot(a);
+  Eigen::Quaterniond q;
+  if (cosine < -1.0 + 1e-12) {
+    q.w() = 0.0;
+    q.vec() = a.unitOrthogonal();
+    return q;
+  }
+  const double s = std::sqrt((1.0 + cosine) * 2.0);
+  q.vec() = a.cross(b) * (1.0 / s);
+  q.w() = s * 0.5;
+  return q;
+}
+
 Vec3 acceleration(const QuadrotorSpec& spec, const QuadrotorState& s, const Vec3& wind) {
   const double thrust = std::accumulate(s.thrust.begin(), s.thrust.end(), 0.0);
   const Vec3 air_B = s.q.conjugate() * (s.v - wind);

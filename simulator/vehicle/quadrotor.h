@@ -74,6 +74,11 @@ QuadrotorState hovering(const QuadrotorSpec& spec, const Vec3& p, double yaw);
 /// The state of standing at p, with the rotors at their least thrust.
 QuadrotorState standing(const QuadrotorSpec& spec, const Vec3& p, double yaw);
 
+/// Returns the smallest rotation that turns the direction of `from` into that of `to`; both are not zero. Of opposite
+/// directions it is half a turn about one of the axes across. (The same as Eigen's FromTwoVectors, which takes 9 s to
+/// compile.)
+Eigen::Quaterniond smallest_rotation(const Vec3& from, const Vec3& to);
+
 /// dv/dt in W, m/s²: gravity, thrust along B's z, drag against the air that moves with `wind` (W, m/s).
 Vec3 acceleration(const QuadrotorSpec& spec, const QuadrotorState& state, const Vec3& wind);
 

@@ -49,7 +49,7 @@ void QuadrotorModel::trim_for_wind() {
   Vec3 against = Vec3::Zero();
   for (int k = 0; k < kTrimSteps; ++k) {
     const Vec3 f = against + Vec3(0.0, 0.0, kGravity);
-    state_.q = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), f);
+    state_.q = smallest_rotation(Vec3::UnitZ(), f);
     state_.thrust.fill(std::min(config_.body.mass_kg * f.norm() / 4.0, config_.body.max_thrust()));
     against -= acceleration(config_.body, state_, mean);
   }

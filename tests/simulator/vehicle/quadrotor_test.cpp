@@ -36,6 +36,25 @@ QuadrotorState after(const QuadrotorSpec& spec, QuadrotorState s, const Rotors& 
   return s;
 }
 
+RC_GTEST_PROP(Quadrotor, TheSmallestRotationTurnsOneDirectionIntoTheOther, ()) {
+  const auto vector = [] {
+    return Vec3(*rc::gen::inRange(-100, 101), *rc::gen::inRange(-100, 101), *rc::gen::inRange(-100, 101));
+  };
+  const Vec3 from = vector(), to = vector();
+  RC_PRE(from.norm() > 0.0 && to.norm() > 0.0);
+  const Eigen::Quaterniond q = smallest_rotation(from, to);
+  RC_ASSERT(std::abs(q.norm() - 1.0) < 1e-12);
+  RC_ASSERT((q * from.normalized() - to.normalized()).norm() < 1e-6);
+  RC_ASSERT(std::abs(q.vec().dot(from.normalized())) < 1e-12);
+}
+
+TEST(Quadrotor, TheSmallestRotationBetweenOppositeDirectionsIsHalfATurn) {
+  const Vec3 from(0.3, -2.0, 0.5);
+  const Eigen::Quaterniond q = smallest_rotation(from, -from);
+  EXPECT_NEAR(q.w(), 0.0, 1e-12);
+  EXPECT_NEAR((q * from + from).norm(), 0.0, 1e-12);
+}
+
 TEST(Quadrotor, HoversWhereItIs) {
   for (const auto kind : {QuadrotorClass::Camera, QuadrotorClass::Racer}) {
     const QuadrotorSpec spec = quadrotor_spec(kind);
