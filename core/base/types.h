@@ -1,6 +1,6 @@
 // Tern's names for Eigen types, and the conversion from signed counts to the unsigned subscripts of std containers.
-// Inline functions of core's headers are written by coordinate: each source that reads an Eigen expression compiles
-// it anew, whether the source calls the function or not.
+// Inline functions of core's headers are written by coordinate. A source that reads an Eigen expression compiles it
+// anew, even if it does not call the function.
 #pragma once
 
 #include <Eigen/Core>
