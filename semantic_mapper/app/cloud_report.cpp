@@ -117,6 +117,7 @@ std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& 
   if (!left_out.empty()) {
     remarks.push_back({fmt::format("{}: of {} points {}; they are left out", source.file, total, left_out), true});
   }
+  if (!cloud.warning.empty()) remarks.push_back({fmt::format("{}: {}", source.file, cloud.warning), true});
   if (census.in_extents < census.meant) {
     remarks.push_back({fmt::format("{}: {} of {} points lie outside mapper.extents and are left out", source.file,
                                    census.meant - census.in_extents, census.meant)});
@@ -134,6 +135,41 @@ std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& 
                      "get holes; write the file with double coordinates or near its origin",
                      source.file, cloud.spacing, config.resolution),
          true});
+  }
+  return remarks;
+}
+
+std::vector<MapRemark> report_octomap(const CloudSource& source, const OctoMapFile& octomap, const MapperConfig& config,
+                                      const Box& flight_box) {
+  const Box near = grown(flight_box, Vec3::Constant(config.resolution));
+  std::int64_t occupied = 0;
+  std::int64_t used = 0;
+  Box bounds;
+  for (const OctoLeaf& leaf : octomap.leaves) {
+    const Box box = octomap.box(leaf);
+    occupied += leaf.is_occupied ? 1 : 0;
+    bounds.extend(box);
+    used += near.intersects(box) && (!config.extents || config.extents->intersects(box)) ? 1 : 0;
+  }
+  const std::string counts =
+      fmt::format("{}: {} cubes of space, {} occupied and {} free, {}", source.file, octomap.leaves.size(), occupied,
+                  std::ssize(octomap.leaves) - occupied, box_text(bounds));
+  if (used == 0) {
+    throw source.section.error(
+        "file", fmt::format("{}; none lies in or near uav.flight_box{}: check origin and metres_per_unit", counts,
+                            config.extents ? " and inside mapper.extents" : ""));
+  }
+  std::vector<MapRemark> remarks{{counts}};
+  if (octomap.too_far > 0) {
+    remarks.push_back({fmt::format("{}: {} cubes lie beyond {:g} m of the world's origin and are left out", source.file,
+                                   octomap.too_far, kMaxCoordinate),
+                       true});
+  }
+  if (config.resolution > octomap.resolution * (1.0 + 1e-6)) {
+    remarks.push_back(
+        {fmt::format("{}: its voxels have {:g} m, the map's {:g} m: what is occupied grows by up to that. "
+                     "`mapper.resolution_m: {:g}` keeps its shape",
+                     source.file, octomap.resolution, config.resolution, octomap.resolution)});
   }
   return remarks;
 }

@@ -1,4 +1,4 @@
-// Reports the points of a cloud that a map uses, and refuses a cloud without effect.
+// Reports what a map uses of a file, and refuses a file without effect.
 #pragma once
 
 #include <string>
@@ -24,5 +24,10 @@ struct MapRemark {
 ///   extents or far from the flight box. The error names the counts per class and the file's properties.
 std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& cloud, const ClassMeanings& classes,
                                     const MapperConfig& config, const Box& flight_box);
+
+/// Returns one line on the leaves of an OctoMap, and one if the map's voxels are coarser than the OctoMap's.
+/// @throws ConfigError if no leaf lies inside the extents and in or near the flight box
+std::vector<MapRemark> report_octomap(const CloudSource& source, const OctoMapFile& octomap, const MapperConfig& config,
+                                      const Box& flight_box);
 
 }  // namespace tern

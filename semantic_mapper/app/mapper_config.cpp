@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <filesystem>
+#include <utility>
 
 #include "core/world/names.h"
 #include "semantic_mapper/sources/class_names.h"
@@ -40,20 +44,48 @@ NamedLabels read_classes(ConfigSection classes, bool is_given) {
   return result;
 }
 
+constexpr std::array<std::pair<const char*, CloudFormat>, 11> kEndings{{{".las", CloudFormat::Las},
+                                                                        {".laz", CloudFormat::Las},
+                                                                        {".ply", CloudFormat::Ply},
+                                                                        {".pcd", CloudFormat::Pcd},
+                                                                        {".xyz", CloudFormat::Text},
+                                                                        {".txt", CloudFormat::Text},
+                                                                        {".asc", CloudFormat::Text},
+                                                                        {".csv", CloudFormat::Text},
+                                                                        {".pts", CloudFormat::Text},
+                                                                        {".bt", CloudFormat::OctoMap},
+                                                                        {".ot", CloudFormat::OctoMap}}};
+const std::vector<std::string> kFormats{"las", "ply", "pcd", "text", "octomap"};  ///< in the order of CloudFormat
+
 /// By the file's ending, if the format is not given.
 CloudFormat read_format(ConfigSection& section, const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension();
-  const bool is_ply = ending == ".ply" || ending == ".PLY";
+  std::string ending = std::filesystem::path(file).extension();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  const auto known = std::find_if(kEndings.begin(), kEndings.end(), [&](const auto& e) { return e.first == ending; });
+  const bool is_known = known != kEndings.end();
+  const std::string by_ending = kFormats[is_known ? idx(known->second) : 0];
   const bool is_given = section.has("format");
-  const std::string format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"},
-                                            "file format; by default that of the file name's ending");
-  const bool is_known = is_ply || ending == ".las" || ending == ".LAS" || ending == ".laz" || ending == ".LAZ";
+  const std::string format =
+      section.choice("format", by_ending, kFormats, "file format; by default that of the file name's ending");
   if (!is_given && !is_known) {
-    throw section.error("file", fmt::format("{}: files {} are not read; LAS (*.las) and PLY (*.ply) are. "
+    throw section.error("file", fmt::format("{}: files {} are not read; LAS (*.las, *.laz), PLY (*.ply), PCD (*.pcd), "
+                                            "OctoMap (*.bt, *.ot) and text (*.xyz, *.txt, *.asc, *.csv, *.pts) are. "
                                             "`format` says which of them it is, if its name does not",
                                             file, ending.empty() ? "without an ending" : "named *" + ending));
   }
-  return format == "ply" ? CloudFormat::Ply : CloudFormat::Las;
+  return static_cast<CloudFormat>(std::find(kFormats.begin(), kFormats.end(), format) - kFormats.begin());
+}
+
+/// Refuses keys that have no effect on the source's format.
+void refuse_other_keys(ConfigSection& section, CloudFormat format) {
+  if (format == CloudFormat::Las && section.has("label")) {
+    throw section.error("label", "names a property or column, and LAS files have none: their class is a field");
+  }
+  if (format != CloudFormat::OctoMap) return;
+  for (const char* key : {"label", "classes", "min_points", "point_radius_m", "fill_below"}) {
+    if (section.has(key)) throw section.error(key, "is a key for points; an OctoMap has none");
+  }
 }
 
 /// "building, tower" as its words.
@@ -80,7 +112,10 @@ CloudSource read_source(ConfigSection section) {
       section.required_text("file", "path: absolute, beside the scenario, or in `TERN_DATA` (else `../shared/data`)");
   if (source.file.empty()) throw section.error("file", "must name a file");
   source.format = read_format(section, source.file);
-  source.label = section.text("label", "", "the PLY property that holds the class; without it, the usual names");
+  refuse_other_keys(section, source.format);
+  source.label = section.text("label", "",
+                              "the property or column that holds the class, or the column's number where a text file "
+                              "names none; without it, the usual names");
   source.classes = read_given_classes(section.section("classes"));
   source.frame.origin = section.vec3("origin", source.frame.origin, kFileCoordinate,
                                      "subtracted from the file's coordinates, in its units");
@@ -94,9 +129,6 @@ CloudSource read_source(ConfigSection section) {
                      "a point also marks voxels whose centre is this near, m; closes gaps of sparse scans");
   source.fill_below = read_class_list(section, "fill_below");
   section.finish();
-  if (!source.label.empty() && source.format != CloudFormat::Ply) {
-    throw section.error("label", "names a property, which only PLY files have");
-  }
   return source;
 }
 
@@ -118,14 +150,17 @@ MapperConfig read_mapper_config(ConfigSection section) {
   config.resolution = section.number("resolution_m", config.resolution, Range{0.01, 100.0},
                                      "side of a voxel, m; at most 2·10⁸ voxels in all");
   if (section.has("extents")) config.extents = read_extents(section.section("extents"));
-  config.background =
-      *named<VoxelLabel>(section.choice("background", "free", {"free", "unknown"}, "label of voxels without a source"));
   config.voxelize_obstacles = section.flag(
       "voxelize_obstacles", config.voxelize_obstacles,
       "the scenario's static obstacles become occupied voxels; the planner gets their exact boxes in any case");
   config.has_own_classes = section.has("classes");
   config.classes = read_classes(section.section("classes"), section.has("classes"));
   for (const ConfigSection& source : section.list("sources")) config.sources.push_back(read_source(source));
+  const bool has_octomap = std::any_of(config.sources.begin(), config.sources.end(),
+                                       [](const CloudSource& source) { return source.format == CloudFormat::OctoMap; });
+  config.background = *named<VoxelLabel>(
+      section.choice("background", has_octomap ? "unknown" : "free", {"free", "unknown"},
+                     "label of voxels without a source; by default `unknown` with an OctoMap, which has free space"));
   section.finish();
   return config;
 }

@@ -12,10 +12,10 @@
 
 namespace tern {
 
-/// The file format of a point cloud.
-enum class CloudFormat { Las, Ply };
+/// The format of a file. Text is a point per line.
+enum class CloudFormat { Las, Ply, Pcd, Text, OctoMap };
 
-/// One point cloud: its file and how its points become voxels (CloudLayer).
+/// One file: a point cloud and how its points become voxels (CloudLayer), or an OctoMap.
 struct CloudSource {
   std::string file;  ///< as written in the scenario
   CloudFormat format = CloudFormat::Las;
@@ -23,7 +23,7 @@ struct CloudSource {
   int min_points = 1;
   double point_radius = 0.0;            ///< m
   std::vector<std::string> fill_below;  ///< class names
-  std::string label;                    ///< the PLY property that is the class; "": by the usual names
+  std::string label;                    ///< the property or column that is the class; "": by the usual names
   std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< class or group name → label; has priority over the
                                                             ///< map's own
   ConfigSection section;  ///< the section, for errors that are found when the file is opened

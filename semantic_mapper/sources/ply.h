@@ -11,10 +11,9 @@ namespace tern {
 
 /// Reads the vertices of an ASCII, little-endian or big-endian binary PLY file: x, y, z and the class of each.
 ///
-/// The class is the property `label`. If `label` is empty, it is the first of these that the file has: `label`,
-/// `class`, `classification`, `class_id`, `semantic`, `scalar_Label`, `scalar_Classification`. Case does not matter. A
-/// file without a class property has `has_labels` false. Other scalar properties and the elements after the vertices
-/// are ignored. Vertices that cannot be used are left out and counted (CloudFile).
+/// The class is the property `label`; if that is empty, one with a usual name (PointColumns::find). A file without a
+/// class property has `has_labels` false. Other scalar properties and the elements after the vertices are ignored.
+/// Vertices that cannot be used are left out and counted (CloudFile).
 ///
 /// Errors name `file`, offset, value and limit. It fails for:
 ///  - a file that is no PLY, or whose header is longer than kMaxPlyHeader bytes;

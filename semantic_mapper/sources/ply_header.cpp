@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <optional>
 #include <string_view>
 
@@ -14,22 +12,7 @@
 namespace tern {
 namespace {
 
-constexpr std::array<const char*, 7> kClassNames{"label",    "class",        "classification",       "class_id",
-                                                 "semantic", "scalar_Label", "scalar_Classification"};
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  while (true) {
-    const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) return words;
-    line.remove_prefix(begin);
-    const std::size_t end = std::min(line.find_first_of(" \t\r"), line.size());
-    words.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-  }
-}
-
-std::optional<PlyType> type_of(std::string_view word) {
+std::optional<NumberType> type_of(std::string_view word) {
   constexpr std::array<std::array<const char*, 2>, 8> kNames{{{"char", "int8"},
                                                               {"uchar", "uint8"},
                                                               {"short", "int16"},
@@ -39,16 +22,9 @@ std::optional<PlyType> type_of(std::string_view word) {
                                                               {"float", "float32"},
                                                               {"double", "float64"}}};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<PlyType>(i);
+    if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<NumberType>(i);
   }
   return std::nullopt;
-}
-
-/// Equal but for the case of letters.
-bool is_named(std::string_view name, std::string_view wanted) {
-  return std::equal(name.begin(), name.end(), wanted.begin(), wanted.end(), [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  });
 }
 
 /// Parses the header line by line. A call returns an error text, or an empty text if the line is accepted.
@@ -85,19 +61,16 @@ class HeaderLines {
   }
 
   std::string take_element(const std::vector<std::string_view>& words) {
-    std::uint64_t count = 0;
     if (words.size() != 3) return "the element line is not \"element <name> <count>\"";
-    const auto [end, error] = std::from_chars(words[2].data(), words[2].data() + words[2].size(), count);
-    if (error != std::errc() || end != words[2].data() + words[2].size()) {
-      return fmt::format("\"{}\" is not a number of elements", words[2].substr(0, 40));
-    }
+    const auto count = whole_number(words[2]);
+    if (!count) return fmt::format("\"{}\" is not a number of elements", words[2].substr(0, 40));
     in_vertices_ = words[1] == "vertex";
     if (!in_vertices_) return has_vertices_ ? "" : fmt::format("element {} before vertex", words[1].substr(0, 40));
     if (has_vertices_) return "element vertex given twice";
     has_vertices_ = true;
-    if (count > static_cast<std::uint64_t>(kMaxCloudPoints))
-      return fmt::format("{} vertices (limit {})", count, kMaxCloudPoints);
-    header.count = static_cast<std::size_t>(count);
+    if (*count > static_cast<std::uint64_t>(kMaxCloudPoints))
+      return fmt::format("{} vertices (limit {})", *count, kMaxCloudPoints);
+    header.count = static_cast<std::size_t>(*count);
     return "";
   }
 
@@ -106,12 +79,13 @@ class HeaderLines {
     if (words.size() != 3) return "the property line is not \"property <type> <name>\"";
     const auto type = type_of(words[1]);
     if (!type) return fmt::format("unknown type {}", words[1].substr(0, 40));
-    if (header.properties.size() == kMaxPlyProperties) return fmt::format("more than {} properties", kMaxPlyProperties);
-    if (std::find(header.names.begin(), header.names.end(), words[2]) != header.names.end()) {
+    auto& names = header.columns.names;
+    if (names.size() == kMaxPlyProperties) return fmt::format("more than {} properties", kMaxPlyProperties);
+    if (std::find(names.begin(), names.end(), words[2]) != names.end()) {
       return fmt::format("property {} given twice", words[2].substr(0, 40));
     }
-    header.names.emplace_back(words[2]);
-    header.properties.push_back(*type);
+    names.emplace_back(words[2]);
+    header.columns.types.push_back(*type);
     return "";
   }
 
@@ -119,28 +93,7 @@ class HeaderLines {
     ended = true;
     if (!has_format_) return "no format line";
     if (!has_vertices_) return "no element vertex";
-    const auto find = [&](std::string_view wanted) {
-      auto at = std::find(header.names.begin(), header.names.end(), wanted);
-      if (at == header.names.end()) {
-        at = std::find_if(header.names.begin(), header.names.end(),
-                          [&](const std::string& name) { return is_named(name, wanted); });
-      }
-      return at == header.names.end() ? PlyHeader::kNone : idx(at - header.names.begin());
-    };
-    constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-    for (std::size_t i = 0; i < 3; ++i) {
-      header.position[i] = find(kAxes[i]);
-      if (header.position[i] == PlyHeader::kNone) return fmt::format("vertices have no property {}", kAxes[i]);
-    }
-    if (label_.empty()) {
-      for (std::size_t i = 0; i < kClassNames.size() && header.class_number == PlyHeader::kNone; ++i) {
-        header.class_number = find(kClassNames[i]);
-      }
-      return "";
-    }
-    header.class_number = find(label_);
-    if (header.class_number != PlyHeader::kNone) return "";
-    return fmt::format("no property {} for the class among {}", label_.substr(0, 40), listed(header.names));
+    return header.columns.find(label_);
   }
 
   bool has_format_ = false;
@@ -150,11 +103,6 @@ class HeaderLines {
 };
 
 }  // namespace
-
-std::size_t size_of(PlyType type) {
-  constexpr std::array<std::size_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[idx(type)];
-}
 
 Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file,
                                    const std::string& label) {

@@ -11,7 +11,7 @@
 
 namespace tern {
 
-/// A point and its class number: an ASPRS class in LAS files (class_names.h), the file's own number in PLY files.
+/// A point and its class number: an ASPRS class in LAS files (class_names.h), the file's own number in others.
 struct LabelledPoint {
   Vec3 position = Vec3::Zero();  ///< W, m
   std::uint8_t class_number = 0;
@@ -35,7 +35,8 @@ struct CloudFile {
   std::int64_t too_far = 0;             ///< points beyond kMaxCoordinate in W, left out
   std::int64_t not_a_class = 0;         ///< points whose label is not an integer in [0, 255], left out
   bool has_labels = true;               ///< false: the file has no property for the class, and every class is 0
-  std::vector<std::string> properties;  ///< names of a vertex's properties in file order; empty for LAS
+  std::vector<std::string> properties;  ///< names of a point's properties in file order; empty for LAS
+  std::string warning;                  ///< a fact that may make the points wrong; "" if there is none
   double spacing = 0.0;  ///< distance of neighbouring numbers at the largest float32 coordinate, m; 0 without float32
 
   /// Adds a point or counts why it is left out. @param label  the class number as the file has it

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "semantic_mapper/voxel_map/cloud_voxels.h"
+#include "semantic_mapper/voxel_map/octomap_voxels.h"
 #include "semantic_mapper/voxel_map/voxel_painter.h"
 
 namespace tern {
@@ -25,6 +26,9 @@ Box bounds_of(const MapSources& sources) {
     for (const LabelledPoint& point : cloud.points) {
       if (cloud.classes[point.class_number]) box.extend(point.position);
     }
+  }
+  for (const OctoMapFile& octomap : sources.octomaps) {
+    for (const OctoLeaf& leaf : octomap.leaves) box.extend(octomap.box(leaf));
   }
   return box;
 }
@@ -128,6 +132,7 @@ Result<BuiltMap> build_map(const MapSources& sources, const MapBuildOptions& opt
     return fail(
         fmt::format("sources[{}].min_points: no voxel has {} marks of one label", k, sources.clouds[k].min_points));
   }
+  for (const OctoMapFile& octomap : sources.octomaps) paint_octomap(octomap, painter);
   BuiltMap built;
   if (options.body) built.stood_in = painter.free_standing_place(*options.body, options.somewhere);
   built.map = painter.finish();

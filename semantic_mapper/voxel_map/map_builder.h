@@ -12,6 +12,7 @@
 #include "core/world/region.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
+#include "semantic_mapper/sources/octomap.h"
 #include "semantic_mapper/sources/point_cloud.h"
 
 namespace tern {
@@ -42,6 +43,7 @@ struct MapSources {
       region_classes;          ///< class name → label, for the class of every region
   std::vector<Box> obstacles;  ///< occupied, with the class "obstacle"
   std::vector<CloudLayer> clouds;
+  std::vector<OctoMapFile> octomaps;  ///< occupied and free space (paint_octomap)
 };
 
 /// The grid of a map and its background.
@@ -66,7 +68,7 @@ inline constexpr std::int64_t kMaxRoomyVoxels = 8'000'000;
 /// Returns the map of all sources. O(voxels + points·(point_radius/resolution)³ + points·log(points)).
 ///
 /// 1. If sources disagree about a voxel, the stronger label is kept: occupied > repulsive > attractive > free >
-///    unknown. Of equal labels the class of the first source is kept: regions, then obstacles, then clouds.
+///    unknown. Of equal labels the class of the first source is kept: regions, then obstacles, clouds and OctoMaps.
 /// 2. Occupied regions and obstacles mark every voxel that they overlap. (A prism also marks voxels within half a
 ///    voxel's diagonal of its outline.) Other regions mark the voxels whose centre they contain.
 /// 3. The grid's corner is a multiple of the resolution, so the voxels do not depend on the extents. Sources are cut

@@ -11,6 +11,9 @@
 
 namespace tern {
 
+/// The class of occupied voxels whose source has no labels.
+inline constexpr const char* kUnlabelled = "unlabelled";
+
 /// A map in the making.
 class VoxelPainter {
  public:

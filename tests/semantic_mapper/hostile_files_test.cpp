@@ -6,7 +6,11 @@
 #include "core/base/random.h"
 #include "core/world/message_limits.h"
 #include "semantic_mapper/sources/las.h"
+#include "semantic_mapper/sources/lzf.h"
+#include "semantic_mapper/sources/octomap.h"
+#include "semantic_mapper/sources/pcd.h"
 #include "semantic_mapper/sources/ply.h"
+#include "semantic_mapper/sources/text_cloud.h"
 #include "tests/support/cloud_files.h"
 #include "tests/support/effort.h"
 
@@ -16,6 +20,8 @@ namespace {
 using support::FileBytes;
 
 const int kMutations = support::at_effort(10'000);
+/// Compressed data may hold this many times its bytes.
+constexpr std::size_t kMaxLzfRatio = 88;
 
 PointCloud some_points(Rng& rng) {
   PointCloud points;
@@ -50,13 +56,13 @@ FileBytes mutated(FileBytes bytes, Rng& rng) {
   return bytes;
 }
 
-void expect_sane(const Result<CloudFile>& cloud, std::size_t bytes) {
+void expect_sane(const Result<CloudFile>& cloud, std::size_t most) {
   if (!cloud) {
     ASSERT_TRUE(cloud.error().message.starts_with("file, offset ")) << cloud.error().message;
     ASSERT_LT(cloud.error().message.size(), 300u);
     return;
   }
-  ASSERT_LE(cloud->points.size(), bytes);
+  ASSERT_LE(cloud->points.size(), most);
   for (const LabelledPoint& point : cloud->points) ASSERT_LE(point.position.cwiseAbs().maxCoeff(), kMaxCoordinate);
 }
 
@@ -79,6 +85,59 @@ TEST(HostileFiles, MutatedPlyGivesAValueOrAnError) {
     const FileBytes bytes = mutated(support::ply_file(some_points(rng), kind), rng);
     expect_sane(parse_ply(bytes, "file", {}), bytes.size());
     if (HasFatalFailure()) return;
+  }
+}
+
+TEST(HostileFiles, MutatedPcdGivesAValueOrAnError) {
+  Rng rng(3);
+  for (int i = 0; i < kMutations; ++i) {
+    const auto kind = static_cast<support::PcdKind>(i % 3);
+    const FileBytes bytes = mutated(support::pcd_file(some_points(rng), kind), rng);
+    expect_sane(parse_pcd(bytes, "file", {}), kMaxLzfRatio * bytes.size());
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(HostileFiles, MutatedCompressedBytesGiveTheirSizeOrNothing) {
+  Rng rng(4);
+  for (int i = 0; i < kMutations; ++i) {
+    FileBytes bytes;
+    for (int n = 0; n < 30; ++n) {
+      bytes.insert(bytes.end(), static_cast<std::size_t>(rng.uniform(1, 20)), static_cast<std::uint8_t>(n));
+    }
+    const FileBytes packed = mutated(support::lzf_compressed(bytes), rng);
+    const auto back = lzf_decompress(packed, bytes.size());
+    ASSERT_TRUE(!back || back->size() == bytes.size());
+  }
+}
+
+TEST(HostileFiles, MutatedTextGivesAValueOrAnError) {
+  Rng rng(5);
+  for (int i = 0; i < kMutations; ++i) {
+    const FileBytes bytes = mutated(support::text_file(some_points(rng), " ,;\t"[i % 4]), rng);
+    expect_sane(parse_text_cloud(bytes, "file", {}), bytes.size());
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(HostileFiles, MutatedOctoMapGivesAValueOrAnError) {
+  Rng rng(6);
+  for (int i = 0; i < kMutations; ++i) {
+    std::vector<VoxelLabel> labels(64);
+    for (VoxelLabel& label : labels) label = static_cast<VoxelLabel>(rng.uniform(0, 3));
+    const FileBytes bytes = mutated(support::octomap_file(labels, 4, i % 2 == 0), rng);
+    const auto octomap = parse_octomap(bytes, "file", {});
+    if (!octomap) {
+      ASSERT_TRUE(octomap.error().message.starts_with("file, offset ")) << octomap.error().message;
+      ASSERT_LT(octomap.error().message.size(), 300u);
+      continue;
+    }
+    ASSERT_LE(octomap->leaves.size(), 4 * bytes.size());
+    for (const OctoLeaf& leaf : octomap->leaves) {
+      const Box box = octomap->box(leaf);
+      ASSERT_TRUE(Box(Vec3::Constant(-kMaxCoordinate), Vec3::Constant(kMaxCoordinate)).contains(box));
+      ASSERT_FALSE(box.isEmpty());
+    }
   }
 }
 

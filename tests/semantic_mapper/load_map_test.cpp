@@ -178,7 +178,7 @@ TEST_F(LoadMapTest, ASourceNamesItsClassPropertyAndWhatItsNumbersMean) {
   EXPECT_THAT(error_of(with_source("file: rue.ply, label: label")), HasSubstr("no property label for the class among"));
   EXPECT_THAT(error_of(with_source("file: rue.ply, classes: {256: occupied}")), HasSubstr("is not a class"));
   write("wall.las", support::las_file(wall(6), {}));
-  EXPECT_THAT(error_of(with_source("file: wall.las, label: class")), HasSubstr("which only PLY files have"));
+  EXPECT_THAT(error_of(with_source("file: wall.las, label: class")), HasSubstr("LAS files have none"));
 }
 
 TEST_F(LoadMapTest, WarnsOfWhatIsLeftOutAndOfCoordinatesThatAreTooLarge) {
@@ -245,10 +245,47 @@ TEST_F(LoadMapTest, AVehicleThatStandsOnScannedGroundIsNotInTheMap) {
 }
 
 TEST_F(LoadMapTest, AFileOfAnotherFormatIsNamedAsSuch) {
-  EXPECT_THAT(error_of(with_source("file: wall.pcd")),
-              HasSubstr("wall.pcd: files named *.pcd are not read; LAS (*.las)"));
+  EXPECT_THAT(error_of(with_source("file: wall.e57")),
+              HasSubstr("wall.e57: files named *.e57 are not read; LAS (*.las"));
   EXPECT_THAT(error_of(with_source("file: wall")), HasSubstr("wall: files without an ending are not read"));
-  EXPECT_THAT(error_of(with_source("file: wall.pcd, format: ply")), HasSubstr("wall.pcd not found"));
+  EXPECT_THAT(error_of(with_source("file: wall.e57, format: ply")), HasSubstr("wall.e57 not found"));
+  EXPECT_THAT(error_of(with_source("file: wall.e57, format: stl")), HasSubstr("format"));
+}
+
+TEST_F(LoadMapTest, AllFormatsOfOneCloudGiveTheSameMap) {
+  const PointCloud points = wall(6);
+  write("wall.las", support::las_file(points, {}));
+  write("wall.ply", support::ply_file(points, support::PlyKind::Big));
+  write("wall.xyz", support::text_file(points));
+  write("ascii.pcd", support::pcd_file(points, support::PcdKind::Ascii));
+  write("binary.pcd", support::pcd_file(points, support::PcdKind::Binary));
+  write("compressed.pcd", support::pcd_file(points, support::PcdKind::Compressed));
+  const VoxelMap map = load(with_source("file: wall.las"));
+  EXPECT_GT(count(map, VoxelLabel::Occupied), 250);
+  for (const char* file : {"wall.ply", "wall.xyz", "ascii.pcd", "binary.pcd", "compressed.pcd"}) {
+    EXPECT_EQ(load(with_source(std::string("file: ") + file)).version, map.version) << file;
+  }
+}
+
+TEST_F(LoadMapTest, AnOctoMapHasOccupiedFreeAndUnknownVoxels) {
+  std::vector<VoxelLabel> labels(8 * 8 * 8, VoxelLabel::Free);
+  for (int i = 0; i < 64; ++i) labels[idx(4 + 8 * i)] = VoxelLabel::Occupied;  // a wall at x = 2 to 2.5 m
+  for (int i = 0; i < 64; ++i) labels[idx(7 + 8 * i)] = VoxelLabel::Unknown;
+  write("lab.bt", support::octomap_file(labels, 8, true));
+  write("lab.ot", support::octomap_file(labels, 8, false));
+  const std::string more = "resolution_m: 0.5, ";
+  const LoadedMap loaded = load_all(with_source("file: lab.bt", more));
+  EXPECT_EQ(count(loaded.map, VoxelLabel::Occupied), 64);
+  EXPECT_EQ(count(loaded.map, VoxelLabel::Free), 6 * 64);
+  EXPECT_EQ(count(loaded.map, VoxelLabel::Unknown), loaded.map.grid.voxels() - 7 * 64);
+  EXPECT_EQ(loaded.remarks.size(), 1u);
+  EXPECT_THAT(loaded.remarks[0].text, HasSubstr("64 occupied"));
+  EXPECT_EQ(load(with_source("file: lab.ot", more)).version, loaded.map.version);
+  EXPECT_EQ(count(load(with_source("file: lab.bt", more + "background: free, ")), VoxelLabel::Unknown), 0);
+  EXPECT_THAT(load_all(with_source("file: lab.bt", "resolution_m: 1, ")).remarks.at(1).text,
+              HasSubstr("`mapper.resolution_m: 0.5` keeps its shape"));
+  EXPECT_THAT(error_of(with_source("file: lab.bt, origin: [500, 0, 0]")),
+              HasSubstr("none lies in or near uav.flight_box: check origin and metres_per_unit"));
 }
 
 }  // namespace

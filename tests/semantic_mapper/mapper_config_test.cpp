@@ -61,6 +61,24 @@ mapper:
   EXPECT_EQ(config.sources[2].format, CloudFormat::Ply);
 }
 
+TEST(MapperConfig, KnowsTheFormatByTheEndingAndRefusesKeysThatItHasNoUseFor) {
+  const MapperConfig config =
+      read("mapper: {sources: [{file: a.PCD, label: sem}, {file: b.xyz}, {file: c.bt}, {file: d.csv}, {file: e.ot}]}");
+  EXPECT_EQ(config.sources[0].format, CloudFormat::Pcd);
+  EXPECT_EQ(config.sources[0].label, "sem");
+  EXPECT_EQ(config.sources[1].format, CloudFormat::Text);
+  EXPECT_EQ(config.sources[2].format, CloudFormat::OctoMap);
+  EXPECT_EQ(config.sources[3].format, CloudFormat::Text);
+  EXPECT_EQ(config.sources[4].format, CloudFormat::OctoMap);
+  EXPECT_EQ(config.background, VoxelLabel::Unknown) << "an OctoMap says what is free";
+  EXPECT_EQ(read("mapper: {background: free, sources: [{file: c.bt}]}").background, VoxelLabel::Free);
+  for (const char* key :
+       {"label: a", "classes: {ground: free}", "min_points: 2", "point_radius_m: 1", "fill_below: wire"}) {
+    EXPECT_THAT(error_of(std::string("mapper: {sources: [{file: c.bt, ") + key + "}]}"),
+                HasSubstr("is a key for points; an OctoMap has none"));
+  }
+}
+
 TEST(MapperConfig, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(error_of("mapper: {resolution_m: 0}"), HasSubstr("mapper.resolution_m: 0 is out of range"));
   EXPECT_THAT(error_of("mapper: {resolution: 1}"), HasSubstr("resolution"));

@@ -111,8 +111,8 @@ TEST(Ply, NamesFileOffsetValueAndLimitOfWhatItRefuses) {
   EXPECT_THAT(error_of(with_lines(kXyz + "property float x\n")), HasSubstr("property x given twice"));
   EXPECT_THAT(error_of(with_lines(kXyz + "property list uchar int l\n")), HasSubstr("a list property in a vertex"));
   EXPECT_THAT(error_of(with_lines(kXyz + "property quad q\n")), HasSubstr("unknown type quad"));
-  EXPECT_THAT(error_of(with_lines(kXyz, "1 2\n   ")), HasSubstr("no number where vertex 0 needs one"));
-  EXPECT_THAT(error_of(with_lines(kXyz, "1 2 3x\n")), HasSubstr("no number where vertex 0 needs one"));
+  EXPECT_THAT(error_of(with_lines(kXyz, "1 2\n   ")), HasSubstr("no number where point 0 needs one"));
+  EXPECT_THAT(error_of(with_lines(kXyz, "1 2 3x\n")), HasSubstr("no number where point 0 needs one"));
   EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement face 1\nend_header\n"), HasSubstr("element face before vertex"));
   EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement vertex 60000000\nend_header\n"),
               HasSubstr("60000000 vertices (limit 50000000)"));

@@ -1,4 +1,4 @@
-// Point cloud files made in memory: LAS files of all versions and formats, PLY files of all encodings.
+// Files of maps made in memory: LAS of all versions and formats, PLY and PCD of all encodings, text, OctoMap.
 #pragma once
 
 #include <bit>
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/world/voxel_map.h"
 #include "semantic_mapper/sources/point_cloud.h"
 
 namespace tern::support {
@@ -26,6 +27,22 @@ FileBytes las_file(const PointCloud& points, const LasSpec& spec);
 enum class PlyKind { Ascii, Little, Big };
 /// Returns a PLY file with x, y as double, z as float, an unused short, and the class as uchar named `class_property`.
 FileBytes ply_file(const PointCloud& points, PlyKind kind, const std::string& class_property = "label");
+
+enum class PcdKind { Ascii, Binary, Compressed };
+/// Returns a PCD file with x, y, z as float and the class as uint32 named `class_field`. Between them are a padding of
+/// three bytes and a normal of three floats.
+FileBytes pcd_file(const PointCloud& points, PcdKind kind, const std::string& class_field = "label");
+
+/// Returns bytes as LZF: repetitions of the byte before, and literals.
+FileBytes lzf_compressed(const FileBytes& bytes);
+
+/// Returns a text file with x, y, z and the class in columns, under a first line of names.
+FileBytes text_file(const PointCloud& points, char separator = ' ');
+
+/// Returns an OctoMap with voxels of 0.5 m from the origin on. Voxel (x, y, z) is unknown, free or occupied:
+/// labels[x + side (y + side z)]. Cubes of one label are one leaf.
+/// @param side  voxels per axis, a power of two
+FileBytes octomap_file(const std::vector<VoxelLabel>& labels, int side, bool is_binary);
 
 /// Overwrites the sizeof(value) bytes at `offset`.
 template <class T>
