@@ -15,7 +15,7 @@ std::vector<std::string> overrides_of(const LaunchOptions& options) {
     values = {"simulator.vehicle=external", "simulator.wait_s=180", "mavlink.start=arm",
               "simulator.wait_for=tern-mavlink, tern-executor, tern-predictor, tern-mapper, tern-planner"};
   }
-  if (options.default_dynamics) values.emplace_back(kAutopilotDynamics);
+  values.insert(values.end(), options.autopilot_limits.begin(), options.autopilot_limits.end());
   if (options.autopilot_sim) {
     values.insert(values.end(), {"mavlink.set_parameters=true", "mavlink.without_remote=true"});
   }
@@ -30,6 +30,16 @@ void pass(std::optional<int> fd, const char* option, ChildProcess& child) {
 }
 
 }  // namespace
+
+std::vector<std::string> autopilot_limits(const Limits& limits) {
+  constexpr double kLevel = 12.0, kDown = 1.5;  // MPC_XY_VEL_MAX, MPC_Z_VEL_MAX_DN
+  if (limits.dynamics) return {};
+  Vec3 v = limits.v_max;
+  v.head<2>() *= std::min(1.0, kLevel / v.head<2>().norm());
+  v.z() = std::min(v.z(), kDown);
+  return {"uav.dynamics={thrust_min: 4, thrust_max: 16, tilt_max: 38, body_rate_max: 170}",
+          fmt::format("uav.limits.v_max=[{}, {}, {}]", v.x(), v.y(), v.z())};
+}
 
 std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, const std::string& record,
                                                 const std::map<std::string, int>& key_fds) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/world/vehicle.h"
 #include "runtime/child_process.h"
 
 namespace tern {
@@ -29,9 +30,9 @@ struct LaunchOptions {
   std::string view_url, page;      ///< URL of that socket; folder of the built page
   bool allow_goals = false;        ///< pages may send goals
   std::string autopilot;           ///< address for tern-mavlink; empty: the simulator flies its own vehicle
-  bool default_dynamics = false;   ///< an autopilot flies and the scenario states no uav.dynamics
-  bool autopilot_sim = false;      ///< the autopilot is tern-autopilot-sim; needs udp://
-  bool audit = false, report = false;  ///< run tern-audit, tern-report after the flight
+  std::vector<std::string> autopilot_limits;  ///< overrides for a flight with an autopilot
+  bool autopilot_sim = false;                 ///< the autopilot is tern-autopilot-sim; needs udp://
+  bool audit = false, report = false;         ///< run tern-audit, tern-report after the flight
 };
 
 /// A process that the launcher starts.
@@ -41,10 +42,10 @@ struct SupervisedProcess {
   bool restarted = true;  ///< start it again when it dies, unless is_permanent
 };
 
-/// Limits of an autopilot with PX4's default bounds (45°, 220°/s) and thrust/weight 2, reduced by a reserve for
-/// feedback.
-inline constexpr char kAutopilotDynamics[] =
-    "uav.dynamics={thrust_min: 4, thrust_max: 16, tilt_max: 38, body_rate_max: 170}";
+/// Returns overrides that fit an autopilot with PX4's default bounds and thrust/weight 2, with a reserve for feedback.
+/// The bounds are 45°, 220°/s, 12 m/s level and 1.5 m/s down. Empty if the limits state `dynamics`: they are a
+/// vehicle's own.
+std::vector<std::string> autopilot_limits(const Limits& limits);
 inline constexpr char kMavlink[] = "tern-mavlink", kAutopilotSim[] = "tern-autopilot-sim";
 inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kViewer[] = "tern-viewer";
 

@@ -247,6 +247,11 @@ void Autopilot::receive_parameter(const ParamValue& value) {
   if (parameters_.size() < kMaxParameters) parameters_[string_of(value.param_id)] = number;
 }
 
+double Autopilot::parameter(const std::string& name, double otherwise) const {
+  const auto found = parameters_.find(name);
+  return found == parameters_.end() ? otherwise : found->second;
+}
+
 EstimatorHealth Autopilot::estimator() const {
   if (!health_) return state_ ? EstimatorHealth::Degraded : EstimatorHealth::Lost;
   if (!placed_ || health_received_ - *placed_ >= kFaultPasses) return EstimatorHealth::Lost;

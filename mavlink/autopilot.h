@@ -98,6 +98,8 @@ class Autopilot {
   /// the estimate, and there is none before an estimate.
   void take_own_origin() { own_origin_ = true; }
   [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
+  /// The value of a parameter, or `otherwise` if it was not read.
+  [[nodiscard]] double parameter(const std::string& name, double otherwise) const;
   /// The newest STATUSTEXT of severity warning or worse. "Arming denied …" is followed by the newest "Preflight Fail
   /// …", which contains the reason.
   [[nodiscard]] std::string last_warning() const;

@@ -11,6 +11,8 @@ namespace tern::mavlink {
 namespace {
 
 constexpr Duration kHeartbeatPeriod{500'000}, kTimesyncPeriod{100'000};
+/// Until the autopilot's clock is known: nothing can be flown before that.
+constexpr Duration kFirstTimesyncPeriod{20'000};
 /// Largest deviation of the autopilot clock's rate. A slower simulation moves in slow motion and cannot follow.
 constexpr double kClockOff = 0.05;
 constexpr Duration kHeld{4'000'000};
@@ -60,11 +62,13 @@ void Bridge::enter(Stage stage, const std::string& why) {
   if (stage == stage_ && why == why_) return;
   log_lines_.push_back(fmt::format("{}{}{}", to_string(stage), why.empty() ? "" : ": ", why));
   if (stage != stage_) {
+    if (stage_ == Stage::Following) report_measured();
     stage_since_ = now_;
     next_command_ = now_;
     refusal_.clear();
     landing_seen_ = take_off_asked_ = false;
     if (stage == Stage::Waiting) own_.reset();
+    rests_since_.reset();
     if (stage == Stage::Engaging && !found_) found_ = Found{autopilot_.mode(), autopilot_.armed()};
   }
   stage_ = stage;
@@ -80,6 +84,7 @@ void Bridge::stand_back(const std::string& why) {
 
 void Bridge::receive(const Frame& frame, UTime received) {
   if (!autopilot_.receive(frame, received)) return;
+  tilt_ramp_.add(autopilot_.landed(), received);
   if (frame.id == Heartbeat::kId) watch_mode(received);
   anchor_truth_at_first_sight();
   if (autopilot_.truth()) send_vision(*autopilot_.truth());
@@ -169,6 +174,12 @@ std::vector<RequiredParameter> Bridge::required() const {
   return required_parameters(autopilot_.firmware(), uav_, system, config_.without_remote, config_.external_vision);
 }
 
+std::vector<RequiredParameter> Bridge::required_and_read() const {
+  std::vector<RequiredParameter> read = required();
+  std::erase_if(read, [&](const RequiredParameter& r) { return !autopilot_.parameters().contains(r.name); });
+  return read;
+}
+
 std::string Bridge::clock_fault() const {
   const double rate = autopilot_.clock().rate();
   if (std::abs(rate - 1.0) <= kClockOff) return {};
@@ -188,6 +199,7 @@ void Bridge::watch_lag() {
   const MotionSample commanded = command_.sample(here->at);
   lag_.add(std::min((here->at - lag_at_).seconds(), 0.1), commanded.p, commanded.v, here->motion.p);
   lag_at_ = here->at;
+  if (const auto gains = level_gains()) identification_.add(here->at, here->motion.p, here->motion.v, *gains);
   const double lag_s = lag_.seconds().value_or(0.0);
   if (lag_was_logged_ || std::abs(lag_s) < kLag) return;
   lag_was_logged_ = true;
@@ -196,16 +208,42 @@ void Bridge::watch_lag() {
       lag_s > 0 ? "behind" : "ahead of", config_.drag_per_s, lag_s > 0 ? "small" : "large"));
 }
 
+/// Gains of a PX4 that were read, or nullopt.
+std::optional<LoopGains> Bridge::level_gains() const {
+  constexpr double kMissing = -1.0;
+  const auto read = [&](const char* name) { return autopilot_.parameter(name, kMissing); };
+  const LoopGains gains{read("MPC_XY_P"), read("MPC_XY_VEL_P_ACC"), read("MPC_XY_VEL_I_ACC"), derivative_gain().x()};
+  if (std::min({gains.position_p, gains.velocity_p, gains.velocity_i}) < 0.0) return std::nullopt;
+  return autopilot_.firmware() == Firmware::Px4 ? std::optional(gains) : std::nullopt;
+}
+
+void Bridge::report_measured() {
+  const auto is = measured();
+  if (!is) return;
+  log_lines_.push_back(fmt::format(
+      "measured in {:.0f} s of motion: drag {:.2f} ± {:.2f} 1/s, acceleration {:.2f} s late and {:.2f} of the "
+      "commanded. For the next flight: --set mavlink.drag_per_s={:.2f} --set mavlink.lead_s={:.2f}",
+      is->moved_s, is->drag_per_s, is->drag_sigma, is->lag_s, is->share, std::max(is->drag_per_s, 0.0), is->lag_s));
+}
+
 std::string Bridge::not_ready(UTime now) const {
   if (!autopilot_.address()) return "no HEARTBEAT of an autopilot was received";
   if (!autopilot_.linked(now)) return "no message from the autopilot for " + seconds(now - autopilot_.last_received());
+  if (config_.list_parameters) return parameter_list();
   if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
   if (std::string fault = clock_fault(); !fault.empty()) return fault;
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
   if (std::string fault = vision_.fault(); !fault.empty()) return fault;
   if (!autopilot_.landed()) return "it does not report whether it has landed (EXTENDED_SYS_STATE)";
   if (!config_.check_parameters) return {};
-  return parameter_faults(required(), autopilot_.parameters(), parameters_asked_ >= kMaxParameterRounds);
+  const bool all_asked = parameters_asked_ >= kMaxParameterRounds;
+  return parameter_faults(is_flown() ? required_and_read() : required(), autopilot_.parameters(), all_asked);
+}
+
+std::string Bridge::parameter_list() const {
+  if (parameters_asked_ < kMaxParameterRounds) return "reads parameters";
+  const std::string changes = parameter_changes(required(), autopilot_.parameters(), config_.raise_bounds);
+  return "mavlink.list_parameters: " + (changes.empty() ? "nothing would be set" : changes);
 }
 
 std::string Bridge::estimate_fault(UTime now) const {
@@ -219,6 +257,16 @@ std::string Bridge::estimate_fault(UTime now) const {
 bool Bridge::is_vision_silent(UTime now) const {
   const auto newest = vision_.newest_vision();
   return config_.external_vision && !(newest && now - *newest <= kStateAge);
+}
+
+/// An ArduPilot has no such limit.
+std::string Bridge::tilt_fault(UTime now) const {
+  if (autopilot_.firmware() != Firmware::Px4) return {};
+  const double rise = autopilot_.parameter("MPC_TILTMAX_AIR", 45.0) - autopilot_.parameter("MPC_TILTMAX_LND", 12.0);
+  const Duration left = tilt_ramp_.remaining(autopilot_.parameter("MPC_TKO_RAMP_T", 3.0), rise, now);
+  if (left == Duration{}) return {};
+  return fmt::format("its tilt is still limited after take-off, for {} (MPC_TKO_RAMP_T, MPC_TILTMAX_LND)",
+                     seconds(left));
 }
 
 std::string Bridge::why_not_following(UTime now) const {
@@ -235,7 +283,7 @@ std::string Bridge::why_not_following(UTime now) const {
   if (std::string fault = vision_.fault(); !fault.empty()) return fault;
   if (!setpoint_received_) return "no SETPOINT was received";
   if (!setpoint_near(now)) return fmt::format("SETPOINT is more than {:g} m from the vehicle", config_.far_m);
-  return {};
+  return tilt_fault(now);
 }
 
 std::string Bridge::beyond_last_bound(UTime now) const {
@@ -325,9 +373,11 @@ void Bridge::step(UTime now) {
     send_heartbeats();
   }
   if (now >= next_timesync_ && autopilot_.address()) {
-    next_timesync_ = now + kTimesyncPeriod;
+    next_timesync_ = now + (autopilot_.clock().ready() ? kTimesyncPeriod : kFirstTimesyncPeriod);
     send(Timesync{.ts1 = now.us * 1000});
   }
+  if (stage_ == Stage::Landed || ends_) set_back_parameters(now);
+  if (stage_ == Stage::Following && parameters_asked_ < kMaxParameterRounds) request_parameters(now);
   request_streams(now);
   request_mode(now);
   stream(now);

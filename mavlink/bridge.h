@@ -8,7 +8,9 @@
 #include "executor/commanded_motion.h"
 #include "mavlink/autopilot.h"
 #include "mavlink/bridge_config.h"
+#include "mavlink/flight_identification.h"
 #include "mavlink/required_parameters.h"
+#include "mavlink/tilt_ramp.h"
 #include "mavlink/tracking_lag.h"
 #include "mavlink/vision_check.h"
 
@@ -47,7 +49,7 @@ const char* to_string(Stage stage);
 /// | Ready     | link, clock, estimate and parameters are good                 | stay here                      |
 /// | Engaging  | ordered to fly, and setpoints have been sent for 1 s          | stay here                      |
 /// | Climbing  | armed in the following mode on the ground                     | up to uav.start at climb_speed |
-/// | Following | uav.start is reached, or armed in the following mode in the air | SETPOINT, or stay here       |
+/// | Following | rests at uav.start, or armed in the following mode in the air | SETPOINT, or stay here         |
 /// | StoodBack | another pilot flies                                           | none; start pilot: stay here   |
 /// | Landing   | land() while the bridge flies                                 | stay here, until it lands      |
 /// | Landed    | disarmed, and no arming request for 1.5 s                     | none                           |
@@ -69,18 +71,30 @@ const char* to_string(Stage stage);
 ///
 /// A restarted bridge passes through Waiting and Ready to Following if the vehicle flies in the following mode. It
 /// sends no setpoint in Waiting, so the first one is at the present estimate. The first SETPOINT is its command at
-/// once.
+/// once. The vehicle's failsafe begins after COM_OF_LOSS_T. So the bridge requests HEARTBEAT of an unknown autopilot,
+/// and reads parameters while it flies.
 ///
-/// SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
-/// vehicle is commanded to stop, and VEHICLE_STATUS reports *not following*. With a dead estimate it is to stop at the
-/// last setpoint. While the estimate is apart from external vision (VisionCheck), the vehicle is commanded to stay
-/// where the autopilot estimates it at each moment. Any other setpoint would move it.
+/// SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. A PX4 must also be
+/// past its tilt limit of the take-off (TiltRamp). Otherwise the vehicle is commanded to stop, and VEHICLE_STATUS
+/// reports *not following*. With a dead estimate it is to stop at the last setpoint. While the estimate is apart from
+/// external vision (VisionCheck), the vehicle is commanded to stay where the autopilot estimates it at each moment. Any
+/// other setpoint would move it.
 ///
 /// **Setpoints.** SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz, with p and v of the command, the yaw, and
-/// acceleration_gain·a(now + lead_s) + drag_per_s·v. The gain applies to the horizontal axes: the vertical loop of an
-/// autopilot has no D term. A PX4 holds a setpoint for one period, so p and v are those of half a period later. An
-/// ArduPilot extrapolates, so p and v are those of now. The bridge also sends HEARTBEAT at 2 Hz, TIMESYNC at 10 Hz, and
-/// in flight a request for the autopilot's HEARTBEAT at 5 Hz.
+///
+///     acceleration_gain·(a(t + lead) + D·a(t)) + drag_per_s·v(t + lead).
+///
+/// D is MPC_XY_VEL_D_ACC and MPC_Z_VEL_D_ACC as read: that term of a PX4 opposes the whole present acceleration. The
+/// rest is what the vehicle must have when it has tilted, 1/MC_ROLL_P later. A PX4 holds a setpoint for one period, so
+/// p and v are those of half a period later. An ArduPilot extrapolates, so p and v are those of now. The bridge also
+/// sends HEARTBEAT at 2 Hz, TIMESYNC at 10 Hz, and in flight a request for the autopilot's HEARTBEAT at 5 Hz.
+///
+/// When a flight with a PX4 ends, the log has drag and lag as measured (FlightIdentification), and the settings that
+/// they ask for.
+///
+/// **Parameters.** With set_parameters, those that decide what happens after a loss, and those of the estimator, are
+/// written in stage Waiting. Bounds of the vehicle (speed, tilt, rates) are written only with raise_bounds: otherwise
+/// the scenario must fit them. All are set back in stage Landed, and when the process ends, if the vehicle is disarmed.
 ///
 /// **HEARTBEAT as a ground station.** A PX4 sends STATUSTEXT, which says why arming is denied, only to a link with a
 /// ground station. So the bridge sends a second HEARTBEAT of that type. It must never stand for an operator's ground
@@ -121,6 +135,13 @@ class Bridge {
   /// Lands the vehicle if the bridge flies it. @param why  for the log and VEHICLE_STATUS
   void land(const std::string& why);
   void step(UTime now);
+  /// The process ends: parameters that were set are set back as soon as the vehicle is disarmed.
+  void end_parameters() {
+    ends_ = true;
+    ordered_ = ordered_by_goal_ = false;
+  }
+  /// Whether the autopilot still has parameters that this bridge has set.
+  [[nodiscard]] bool has_set_parameters() const { return !originals_.empty(); }
 
   /// Returns the frames to send, in order, since the last call.
   std::vector<Frame> take_frames() { return std::exchange(out_, {}); }
@@ -135,6 +156,8 @@ class Bridge {
   /// Returns lines for the log since the last call.
   std::vector<std::string> take_log_lines() { return std::exchange(log_lines_, {}); }
   [[nodiscard]] Stage stage() const { return stage_; }
+  /// Drag and lag as this flight shows them. nullopt: not a PX4, or not enough motion.
+  [[nodiscard]] std::optional<FlightIdentification::Answer> measured() const { return identification_.answer(); }
   [[nodiscard]] const Autopilot& autopilot() const { return autopilot_; }
   /// Whether this bridge must land the vehicle before it ends.
   [[nodiscard]] bool flies() const {
@@ -167,6 +190,8 @@ class Bridge {
   void request_disarm(UTime now);
   void engage_next(UTime now);
   void request_parameters(UTime now);
+  void write_parameter(const std::string& name, double value, bool integer);
+  void set_back_parameters(UTime now);
   void request_streams(UTime now);
   void request_mode(UTime now);
   /// Commands the mode `wanted`, if HEARTBEAT has just reported the current one.
@@ -174,6 +199,9 @@ class Bridge {
   /// Compares the mode of a new HEARTBEAT with the commanded one.
   void watch_mode(UTime now);
   void forget_commanded_mode();
+  [[nodiscard]] Vec3 derivative_gain() const;
+  [[nodiscard]] Duration lead() const;
+  [[nodiscard]] std::optional<LoopGains> level_gains() const;
   void stream(UTime now);
   [[nodiscard]] bool is_silent() const;
   void request_take_off(UTime now);
@@ -186,18 +214,24 @@ class Bridge {
   void anchor_truth_at_first_sight();
   void watch_clock();
   void watch_lag();
+  void report_measured();
   void send_vision(const UavState& local);
   void command(UTime now, std::uint16_t number, std::array<float, 7> param);
   void request(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
   [[nodiscard]] std::vector<RequiredParameter> required() const;
+  [[nodiscard]] std::vector<RequiredParameter> required_and_read() const;
   [[nodiscard]] std::string not_ready(UTime now) const;
   [[nodiscard]] std::string estimate_fault(UTime now) const;
   [[nodiscard]] bool is_vision_silent(UTime now) const;
   [[nodiscard]] std::string ground_fault() const;
   [[nodiscard]] std::string why_not_following(UTime now) const;
+  [[nodiscard]] std::string tilt_fault(UTime now) const;
+  [[nodiscard]] std::string parameter_list() const;
   [[nodiscard]] bool setpoint_near(UTime now) const;
   [[nodiscard]] std::string clock_fault() const;
   [[nodiscard]] bool may_be_in_failsafe(UTime now) const;
+  /// Whether the vehicle flies in the following mode: it lives on the bridge's setpoints.
+  [[nodiscard]] bool is_flown() const { return autopilot_.armed() && autopilot_.follows() && in_air(); }
   [[nodiscard]] bool in_air() const { return autopilot_.landed() == std::optional(false); }
   [[nodiscard]] std::optional<UavState> in_world(std::optional<UavState> local) const;
   template <class M>
@@ -222,6 +256,12 @@ class Bridge {
   bool ordered_by_goal_ = false;  ///< such an order also takes over a vehicle that is armed already
   UTime stage_since_, now_;
   int parameters_asked_ = 0;  ///< rounds of requests
+  struct Original {
+    double value = 0.0;
+    bool integer = false;
+  };
+  std::map<std::string, Original> originals_;  ///< of the parameters that were set
+  bool ends_ = false;
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
   /// Mode and arming when the bridge was ordered to fly, or began to engage. Kept until the following mode is reached.
@@ -244,7 +284,10 @@ class Bridge {
   bool landing_seen_ = false;              ///< the autopilot has reported the landing mode
   std::optional<UTime> arm_asked_;
   bool followed_ = false;  ///< when the last setpoint was sent
+  TiltRamp tilt_ramp_;
+  std::optional<UTime> rests_since_;  ///< at uav.start, after the climb
   TrackingLag lag_;
+  FlightIdentification identification_;
   UTime lag_at_;
   bool lag_was_logged_ = false;
   bool clock_is_off_ = false;    ///< logged for this flight

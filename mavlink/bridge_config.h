@@ -15,9 +15,9 @@ struct BridgeConfig {
   Start start = Start::Pilot;
   int system = 0;
   double rate_hz = 50.0;
-  double acceleration_gain = 1.2;
+  double acceleration_gain = 1.0;
   double drag_per_s = 0.3;
-  double lead_s = 0.1;
+  double lead_s = 0.0;
   double climb_speed = 1.0;
   double reach_m = 5.0;
   double far_m = 3.0;
@@ -26,6 +26,8 @@ struct BridgeConfig {
   double sigma_share = 1.0;
   bool check_parameters = true;
   bool set_parameters = false;
+  bool raise_bounds = false;
+  bool list_parameters = false;
   bool without_remote = false;
   bool external_vision = false;
   double vision_apart_m = 1.0;
@@ -37,10 +39,10 @@ struct BridgeConfig {
     v("system", system, Range{0, 255}, "MAVLink system id of the autopilot; 0: that of the first HEARTBEAT");
     v("rate_hz", rate_hz, Range{20.0, 100.0}, "setpoints per second to the autopilot");
     v("acceleration_gain", acceleration_gain, Range{0.0, 3.0},
-      "factor on the horizontal acceleration: 1 + MPC_XY_VEL_D_ACC, since that term opposes the whole acceleration");
+      "factor on the feed-forward of acceleration; the part that MPC_XY_VEL_D_ACC opposes is added as read from a PX4");
     v("drag_per_s", drag_per_s, Range{0.0, 5.0}, "feed-forward against drag: acceleration per commanded velocity, 1/s");
     v("lead_s", lead_s, Range{0.0, 0.5},
-      "how far ahead the commanded acceleration is taken, because tilting takes time, s");
+      "the acceleration is that of this much later, because tilting takes time, s; 0: 1/MC_ROLL_P of a PX4, else 0.1");
     v("climb_speed", climb_speed, Range{0.1, 5.0}, "speed of the climb to `uav.start`, m/s");
     v("reach_m", reach_m, Range{0.1, 100.0},
       "a vehicle farther than this from the point below `uav.start` does not take off, m");
@@ -50,7 +52,12 @@ struct BridgeConfig {
     v("sigma_share", sigma_share, Range{0.0, 10.0}, "factor on the estimator's accuracy for VEHICLE_STATUS");
     v("check_parameters", check_parameters,
       "refuse to fly while the autopilot has parameters that docs/reference/autopilot.md forbids");
-    v("set_parameters", set_parameters, "write the recommended parameters to the autopilot, on the ground");
+    v("set_parameters", set_parameters,
+      "write the recommended parameters to the autopilot, on the ground; they are set back after the flight");
+    v("raise_bounds", raise_bounds,
+      "`set_parameters` also raises the vehicle's bounds of speed, tilt and body rate to those of the scenario");
+    v("list_parameters", list_parameters,
+      "a dry run: report what `set_parameters` would write and what does not fit the vehicle; do not write or fly");
     v("without_remote", without_remote,
       "there is neither a remote control nor a ground station, as in simulation; more parameters are required");
     v("external_vision", external_vision,

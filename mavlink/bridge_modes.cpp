@@ -1,6 +1,8 @@
 // Commanded modes. A pilot's switch has priority over a command of the bridge.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "mavlink/bridge.h"
 
 namespace tern::mavlink {
@@ -13,8 +15,15 @@ constexpr Duration kJustNow{50'000};
 
 }  // namespace
 
+/// Messages of an autopilot that is not known yet come from one that is there already, as after a restart in flight.
+/// Its next HEARTBEAT may be a second away, so one is requested of every system that hears this.
 void Bridge::request_mode(UTime now) {
+  if (!autopilot_.address() && autopilot_.strangers() > 0 && now >= next_mode_) {
+    next_mode_ = now + kOldModePeriod;
+    request(kRequestMessage, Heartbeat::kId);
+  }
   const bool old = autopilot_.mode_is_old();
+  if (old) next_mode_ = std::min(next_mode_, now + kOldModePeriod);
   if (now < next_mode_ || !autopilot_.address() || !(old || flies() || commanded_mode_)) return;
   next_mode_ = now + (old ? kOldModePeriod : kModePeriod);
   request(kRequestMessage, Heartbeat::kId);

@@ -1,6 +1,7 @@
 // The bridge's messages to the autopilot: commands, parameters, setpoints, external vision.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -31,7 +32,7 @@ void Bridge::command(UTime now, std::uint16_t number, std::array<float, 7> param
 }
 
 void Bridge::request(std::uint16_t number, std::uint32_t message, float interval_us) {
-  const Address to = *autopilot_.address();
+  const Address to = autopilot_.address().value_or(Address{static_cast<std::uint8_t>(config_.system), 0});
   send(CommandLong{.param = {static_cast<float>(message), interval_us},
                    .command = number,
                    .target_system = to.system,
@@ -58,24 +59,43 @@ void Bridge::request_parameters(UTime now) {
   next_parameters_ = now + (parameters_asked_ < kMaxParameterRounds ? kFirstParameterPeriod : kParameterPeriod);
   const Address to = *autopilot_.address();
   ++parameters_asked_;
+  const bool writes = config_.set_parameters && !config_.list_parameters && !autopilot_.armed();
   for (const RequiredParameter& r : required()) {
     const auto known = autopilot_.parameters().find(r.name);
     const bool read = known != autopilot_.parameters().end();
     if (read && r.allows(known->second)) continue;
-    if (read && config_.set_parameters && !autopilot_.armed()) {
-      const bool bytewise = r.integer && autopilot_.firmware() == Firmware::Px4;
-      const float value =
-          bytewise ? std::bit_cast<float>(static_cast<std::int32_t>(r.recommended)) : static_cast<float>(r.recommended);
+    if (read && writes && r.may_be_written(config_.raise_bounds)) {
       log_lines_.push_back(fmt::format("sets {} to {:g} (it was {:g})", r.name, r.recommended, known->second));
-      send(ParamSet{.param_value = value,
-                    .target_system = to.system,
-                    .target_component = to.component,
-                    .param_id = text_of<16>(r.name),
-                    .param_type = bytewise ? kInt32 : kReal32});
+      originals_.try_emplace(r.name, Original{known->second, r.integer});
+      write_parameter(r.name, r.recommended, r.integer);
     }
     send(ParamRequestRead{
         .target_system = to.system, .target_component = to.component, .param_id = text_of<16>(r.name)});
   }
+}
+
+void Bridge::write_parameter(const std::string& name, double value, bool integer) {
+  const Address to = *autopilot_.address();
+  const bool bytewise = integer && autopilot_.firmware() == Firmware::Px4;
+  send(ParamSet{
+      .param_value = bytewise ? std::bit_cast<float>(static_cast<std::int32_t>(value)) : static_cast<float>(value),
+      .target_system = to.system,
+      .target_component = to.component,
+      .param_id = text_of<16>(name),
+      .param_type = bytewise ? kInt32 : kReal32});
+}
+
+/// The autopilot answers each PARAM_SET with the new value.
+void Bridge::set_back_parameters(UTime now) {
+  if (originals_.empty() || now < next_parameters_ || autopilot_.armed() || !autopilot_.linked(now)) return;
+  next_parameters_ = now + kFirstParameterPeriod;
+  std::erase_if(originals_, [&](const auto& entry) {
+    const auto& [name, original] = entry;
+    if (autopilot_.parameter(name, original.value) == original.value) return true;
+    log_lines_.push_back(fmt::format("sets {} back to {:g}", name, original.value));
+    write_parameter(name, original.value, original.integer);
+    return false;
+  });
 }
 
 void Bridge::receive_vision(const UavState& seen) {
@@ -106,9 +126,7 @@ void Bridge::send_vision(const UavState& local) {
 bool Bridge::may_be_in_failsafe(UTime now) const {
   if (autopilot_.firmware() == Firmware::ArduPilot) return false;  // it stops and stays in GUIDED
   if (!flies()) return autopilot_.in_failsafe() && !ordered_by_goal_;
-  const auto known = autopilot_.parameters().find("COM_OF_LOSS_T");
-  const double loss_s = known != autopilot_.parameters().end() ? known->second : kOffboardLoss;
-  return autopilot_.silence(now).seconds() > loss_s;
+  return autopilot_.silence(now).seconds() > autopilot_.parameter("COM_OF_LOSS_T", kOffboardLoss);
 }
 
 /// An ArduPilot gets no setpoint before it is up: a setpoint ends its take-off, and has no effect on the ground.
@@ -120,6 +138,22 @@ bool Bridge::is_silent() const {
   }
   return stage_ == Stage::Waiting || stage_ == Stage::Landed ||
          (stage_ == Stage::StoodBack && config_.start == Start::Arm);
+}
+
+/// PX4's velocity loop opposes the present acceleration by this share of it. An ArduPilot's loop opposes only the
+/// error.
+Vec3 Bridge::derivative_gain() const {
+  if (autopilot_.firmware() != Firmware::Px4) return Vec3::Zero();
+  const double level = autopilot_.parameter("MPC_XY_VEL_D_ACC", 0.2), up = autopilot_.parameter("MPC_Z_VEL_D_ACC", 0.0);
+  return {level, level, up};
+}
+
+/// The tilt follows its command as a first-order lag, with the gain of the attitude loop.
+Duration Bridge::lead() const {
+  constexpr double kLead = 0.1, kLongest = 0.5;  // s
+  const double gain = autopilot_.firmware() == Firmware::Px4 ? autopilot_.parameter("MC_ROLL_P", 0.0) : 0.0;
+  const double lag_s = gain > 0.0 ? std::min(1.0 / gain, kLongest) : kLead;
+  return Duration::from_seconds(config_.lead_s > 0.0 ? config_.lead_s : lag_s);
 }
 
 void Bridge::stream(UTime now) {
@@ -138,9 +172,11 @@ void Bridge::stream(UTime now) {
     last_sent_.motion = m;
     last_sent_.yaw = command_.yaw();
   }
-  const Vec3 ahead = following ? command_.acceleration_ahead(now, Duration::from_seconds(config_.lead_s)) : m.a;
-  const double gain = config_.acceleration_gain;
-  const Vec3 a = ahead.cwiseProduct(Vec3(gain, gain, 1.0)) + config_.drag_per_s * m.v;
+  const Vec3 ahead = following ? command_.acceleration_ahead(now, lead()) : m.a;
+  const Vec3 v_ahead = m.v + 0.5 * lead().seconds() * (m.a + ahead);
+  const Vec3 a =
+      config_.acceleration_gain * (ahead + derivative_gain().cwiseProduct(m.a)) + config_.drag_per_s * v_ahead;
+  if (following) identification_.sent(m.p, m.v, a);
   const Address to = *autopilot_.address();
   SetPositionTargetLocalNed target;
   target.time_boot_ms = static_cast<std::uint32_t>(autopilot_.clock().theirs_us(now).value_or(0) / 1000);

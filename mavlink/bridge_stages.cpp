@@ -14,8 +14,9 @@ namespace {
 constexpr Duration kStreamFirst{1'000'000};
 /// On a slow machine, a simulated estimator may take this long before arming is possible.
 constexpr Duration kEngagePatience{120'000'000};
-/// The climb ends within this distance of uav.start, below this speed; m and m/s.
-constexpr double kThere = 0.3, kThereSpeed = 0.4;
+/// The climb ends when the vehicle has been within this distance of uav.start, below this speed, for kRested.
+constexpr double kThere = 0.3, kThereSpeed = 0.4;  // m, m/s
+constexpr Duration kRested{1'000'000};
 /// Smallest climb, m: with less the vehicle may not leave the ground.
 constexpr double kMinClimb = 0.3;
 /// The climb's setpoint waits while it is this far above the vehicle, m: rotors spin up, and PX4 takes off slowly.
@@ -34,7 +35,7 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 }  // namespace
 
 void Bridge::step_waiting(UTime now) {
-  request_parameters(now);
+  if (!ends_) request_parameters(now);
   const std::string why = not_ready(now);
   if (why.empty()) {
     hold_here(now);
@@ -151,10 +152,11 @@ void Bridge::climb(UTime now) {
   } else {
     own.p += way * (next / left);
   }
-  if (here && own.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere &&
-      here->motion.v.norm() < kThereSpeed && in_air()) {
-    enter(Stage::Following);
-  }
+  const bool rests = here && own.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere &&
+                     here->motion.v.norm() < kThereSpeed && in_air();
+  if (!rests) return rests_since_.reset();
+  if (!rests_since_) rests_since_ = now;
+  if (now - *rests_since_ >= kRested) enter(Stage::Following);
 }
 
 /// The estimate moves, so the place to stay at is taken anew each time.
@@ -174,13 +176,17 @@ void Bridge::step_flying(UTime now) {
   watch_clock();
   if (!vision_.fault().empty()) return stay_while_apart(now);
   if (stage_ == Stage::Climbing) return climb(now);
-  const bool near = setpoint_received_ && setpoint_near(now) && estimate_fault(now).empty();
+  const bool near = setpoint_received_ && setpoint_near(now) && estimate_fault(now).empty() && tilt_fault(now).empty();
   if (near || followed_) {
     if (const std::string far = beyond_last_bound(now); !far.empty()) return land(far);
   }
   if (!near && followed_) hold_here(now);
   followed_ = near;
-  if (near) watch_lag();
+  if (near) {
+    watch_lag();
+  } else {
+    identification_.pause();
+  }
 }
 
 void Bridge::request_disarm(UTime now) {

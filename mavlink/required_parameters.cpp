@@ -19,19 +19,54 @@ RequiredParameter at_least(const char* name, double value, const char* why) {
   return {name, value, kAny, std::ceil(value), false, why};
 }
 
+/// A parameter that is only read. @param otherwise  the firmware's default
+RequiredParameter only_read(const char* name, double otherwise) {
+  RequiredParameter r{name, -kAny, kAny, otherwise, false, ""};
+  r.may_be_absent = true;
+  return r;
+}
+
+/// A bound of the vehicle that a value of the scenario must be within.
+RequiredParameter vehicle_bound(const char* name, const RequiredParameter::Bound& bound) {
+  const double least = bound.inverse ? bound.scale / bound.planned : std::ceil(bound.planned / bound.scale);
+  RequiredParameter r{name, -kAny, kAny, least, false, ""};
+  r.bound = bound;
+  return r;
+}
+
+/// The largest tilt of plans, degrees, and its key.
+std::pair<const char*, double> tilt_of(const Limits& limits) {
+  if (!limits.dynamics) return {"uav.dynamics.tilt_max (not stated)", Dynamics::kTilt.high};
+  return {"uav.dynamics.tilt_max", limits.dynamics->tilt_max_deg};
+}
+
+RequiredParameter thrust_bound(const char* hover, const Dynamics& dynamics) {
+  RequiredParameter r = vehicle_bound(hover, {.key = "uav.dynamics.thrust_max",
+                                              .planned = dynamics.thrust_max,
+                                              .scale = kGravity,
+                                              .inverse = true,
+                                              .writable = false});
+  r.may_be_absent = true;
+  return r;
+}
+
 std::vector<RequiredParameter> bounds_of_px4(const UavSpec& uav) {
   const Vec3& v = uav.limits.v_max;
-  const char* const clipped = "it clips faster setpoints (uav.limits.v_max)";
-  std::vector<RequiredParameter> bounds{at_least("MPC_XY_VEL_MAX", v.head<2>().norm(), clipped),
-                                        at_least("MPC_Z_VEL_MAX_UP", v.z(), clipped),
-                                        at_least("MPC_Z_VEL_MAX_DN", v.z(), clipped)};
-  const double tilt = uav.limits.dynamics ? uav.limits.dynamics->tilt_max_deg : Dynamics::kTilt.high;
-  bounds.push_back(at_least("MPC_TILTMAX_AIR", tilt, "plans may tilt up to uav.dynamics.tilt_max"));
+  const auto [tilt_key, tilt] = tilt_of(uav.limits);
+  const auto speed = [](const char* name, const char* key, double planned) {
+    return vehicle_bound(name, {.key = key, .planned = planned, .advised = 1.0});
+  };
+  std::vector<RequiredParameter> bounds{
+      speed("MPC_XY_VEL_MAX", "uav.limits.v_max (x and y together)", v.head<2>().norm()),
+      speed("MPC_Z_VEL_MAX_UP", "uav.limits.v_max (z)", v.z()),
+      speed("MPC_Z_VEL_MAX_DN", "uav.limits.v_max (z)", v.z()),
+      vehicle_bound("MPC_TILTMAX_AIR", {.key = tilt_key, .planned = tilt})};
   if (!uav.limits.dynamics) return bounds;
-  const char* const turned = "plans may turn up to uav.dynamics.body_rate_max";
+  const double rate = uav.limits.dynamics->body_rate_max_deg_s;
   for (const char* name : {"MC_ROLLRATE_MAX", "MC_PITCHRATE_MAX"}) {
-    bounds.push_back(at_least(name, uav.limits.dynamics->body_rate_max_deg_s, turned));
+    bounds.push_back(vehicle_bound(name, {.key = "uav.dynamics.body_rate_max", .planned = rate}));
   }
+  bounds.push_back(thrust_bound("MPC_THR_HOVER", *uav.limits.dynamics));
   return bounds;
 }
 
@@ -47,9 +82,9 @@ double jerk_of(const Limits& limits) {
 /// AP_Math's shape_accel_xy). Its limits of speed and acceleration bound corrections only.
 std::vector<RequiredParameter> bounds_of_copter(const UavSpec& uav) {
   const char* const shaped = "it limits the commanded jerk to this, and lags metres behind faster changes, m/s3";
-  const double tilt = uav.limits.dynamics ? uav.limits.dynamics->tilt_max_deg : Dynamics::kTilt.high;
-  std::vector<RequiredParameter> bounds{
-      at_least("ANGLE_MAX", 100.0 * tilt, "plans may tilt up to uav.dynamics.tilt_max, 0.01 degrees")};
+  const auto [tilt_key, tilt] = tilt_of(uav.limits);
+  std::vector<RequiredParameter> bounds{vehicle_bound("ANGLE_MAX", {.key = tilt_key, .planned = tilt, .scale = 0.01})};
+  if (uav.limits.dynamics) bounds.push_back(thrust_bound("MOT_THST_HOVER", *uav.limits.dynamics));
   const double jerk = jerk_of(uav.limits), up = std::min(uav.limits.j_max.z(), jerk);
   if (std::isfinite(jerk)) bounds.push_back(at_least("PSC_JERK_XY", jerk, shaped));
   if (std::isfinite(up)) bounds.push_back(at_least("PSC_JERK_Z", up, shaped));
@@ -73,6 +108,8 @@ std::vector<RequiredParameter> of_copter(const UavSpec& uav, std::uint8_t system
 }  // namespace
 
 bool RequiredParameter::allows(double value) const {
+  constexpr double kSinglePrecision = 1e-6;
+  if (bound) return bound->planned <= bound->largest(value) * (1.0 + kSinglePrecision);
   return value >= low && value <= high && (static_cast<int>(bits != 0 ? value : 0.0) & bits) == bits;
 }
 
@@ -97,6 +134,16 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
     required.push_back({"NAV_DLL_ACT", -kAny, kAny, 0, true, "with 0 the bridge may be a ground station", 0, true});
   }
   for (const RequiredParameter& bound : bounds_of_px4(uav)) required.push_back(bound);
+  for (const auto& [name, otherwise] : {std::pair{"MPC_TKO_RAMP_T", 3.0},
+                                        {"MPC_TILTMAX_LND", 12.0},
+                                        {"MC_ROLL_P", 6.5},
+                                        {"MPC_XY_P", 0.95},
+                                        {"MPC_XY_VEL_P_ACC", 1.8},
+                                        {"MPC_XY_VEL_I_ACC", 0.4},
+                                        {"MPC_XY_VEL_D_ACC", 0.2},
+                                        {"MPC_Z_VEL_D_ACC", 0.0}}) {
+    required.push_back(only_read(name, otherwise));
+  }
   if (!external_vision) return required;
   const char* const seen = "its estimator must use the ODOMETRY from the bridge and no source that contradicts it";
   for (const auto& [name, value] : {std::pair{"EKF2_EV_CTRL", 15},
@@ -110,25 +157,53 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
   return required;
 }
 
+namespace {
+
+/// What is wrong with a parameter that was read.
+std::string fault_of(const RequiredParameter& r, double value) {
+  if (r.bound) {
+    const double largest = r.bound->largest(value);
+    const std::string meaning = r.bound->scale == 1.0 ? "" : fmt::format(" (allows {:.4g})", largest);
+    return fmt::format("{} is {:.4g}, but {} is {:.4g}{}: {:.3g} would fit", r.bound->key, r.bound->planned, r.name,
+                       value, meaning, r.bound->advised * largest);
+  }
+  const std::string range = r.bits != 0             ? fmt::format("without bits {}", r.bits)
+                            : std::isfinite(r.high) ? fmt::format("not within [{:g}, {:g}]", r.low, r.high)
+                                                    : fmt::format("below {:g}", r.low);
+  return fmt::format("{} is {:g}, {}: {}", r.name, value, range, r.why);
+}
+
+std::string joined(const std::vector<std::string>& texts) { return fmt::format("{}", fmt::join(texts, "; ")); }
+
+}  // namespace
+
 std::string parameter_faults(const std::vector<RequiredParameter>& required,
                              const std::map<std::string, double>& values, bool all_asked) {
-  std::string faults;
+  std::vector<std::string> faults;
   for (const RequiredParameter& r : required) {
     const auto found = values.find(r.name);
-    std::string fault;
-    if (found == values.end()) {
-      if (r.may_be_absent && all_asked) continue;
-      if (r.also_called != nullptr && values.contains(r.also_called)) continue;
-      fault = fmt::format("{} was not read", r.name);
-    } else if (!r.allows(found->second)) {
-      const std::string range = r.bits != 0             ? fmt::format("without bits {}", r.bits)
-                                : std::isfinite(r.high) ? fmt::format("not within [{:g}, {:g}]", r.low, r.high)
-                                                        : fmt::format("below {:g}", r.low);
-      fault = fmt::format("{} is {:g}, {}: {}", r.name, found->second, range, r.why);
+    if (found != values.end()) {
+      if (!r.allows(found->second)) faults.push_back(fault_of(r, found->second));
+      continue;
     }
-    if (!fault.empty()) faults += (faults.empty() ? "" : "; ") + fault;
+    if (r.may_be_absent && all_asked) continue;
+    if (r.also_called != nullptr && values.contains(r.also_called)) continue;
+    faults.push_back(fmt::format("{} was not read", r.name));
   }
-  return faults;
+  return joined(faults);
+}
+
+std::string parameter_changes(const std::vector<RequiredParameter>& required,
+                              const std::map<std::string, double>& values, bool raise_bounds) {
+  std::vector<std::string> changes;
+  for (const RequiredParameter& r : required) {
+    const auto found = values.find(r.name);
+    if (found == values.end() || r.allows(found->second)) continue;
+    changes.push_back(r.may_be_written(raise_bounds)
+                          ? fmt::format("would set {} to {:g} (it is {:g})", r.name, r.recommended, found->second)
+                          : fault_of(r, found->second));
+  }
+  return joined(changes);
 }
 
 }  // namespace tern::mavlink

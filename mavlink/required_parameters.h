@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,23 +22,43 @@ struct RequiredParameter {
   int bits = 0;        ///< bits of an integer that must be set
   /// Not every firmware version has it under this name: its absence is no fault.
   bool may_be_absent = false;
-  const char* also_called = nullptr;  ///< its name in other versions: one of the two is enough
+  const char* also_called = nullptr;  ///< its name in other versions: one of the two is enough.
+  /// Set for a bound of the vehicle: the scenario's value that must be within it.
+  struct Bound {
+    const char* key;       ///< "uav.dynamics.tilt_max"
+    double planned;        ///< that value
+    double scale = 1.0;    ///< its largest value is scale · parameter
+    bool inverse = false;  ///< or scale / parameter
+    bool writable = true;  ///< by raise_bounds; false: it is a property of the vehicle
+    double advised = 0.8;  ///< share of the largest value that leaves a reserve for corrections
+    [[nodiscard]] double largest(double value) const { return inverse ? scale / value : scale * value; }
+  };
+  std::optional<Bound> bound = std::nullopt;
 
   [[nodiscard]] bool allows(double value) const;
+  /// Whether set_parameters writes it.
+  [[nodiscard]] bool may_be_written(bool raise_bounds) const { return !bound || (raise_bounds && bound->writable); }
 };
 
-/// Returns the table of docs/reference/autopilot.md: the behaviour after a loss, and lower bounds for the autopilot's
-/// own limits, from what is planned for `uav`. Empty for an unknown firmware.
+/// Returns the table of docs/reference/autopilot.md: the behaviour after a loss, the vehicle's bounds that `uav` must
+/// obey, and parameters that are only read. Empty for an unknown firmware.
+///
+/// Thrust: with the hover thrust h (share of the largest, MPC_THR_HOVER), the largest thrust per mass is about g/h.
 /// @param system  the autopilot's system id, which the bridge uses as well
 /// @param without_remote  there is neither a remote control nor a ground station
 /// @param external_vision  the estimator uses the ODOMETRY that the bridge sends
 std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavSpec& uav, std::uint8_t system,
                                                    bool without_remote, bool external_vision);
 
-/// Returns the faults with name, value, limit and reason: "COM_OBL_RC_ACT is 0, not within [4, 5]: …". Parameters that
-/// were not read are named. Empty: there is no fault.
+/// Returns the faults with name, value, limit and reason: "COM_OBL_RC_ACT is 0, not within [4, 5]: …". For a bound that
+/// is the key, and a value that fits: "uav.dynamics.tilt_max is 70, but MPC_TILTMAX_AIR is 45: 36 would fit".
+/// Parameters that were not read are named. Empty: there is no fault.
 /// @param all_asked  all were requested often enough that a missing one is absent
 std::string parameter_faults(const std::vector<RequiredParameter>& required,
                              const std::map<std::string, double>& values, bool all_asked);
+
+/// Returns what set_parameters would write: "would set COM_OBL_RC_ACT to 4 (it is 0)", and the remaining faults.
+std::string parameter_changes(const std::vector<RequiredParameter>& required,
+                              const std::map<std::string, double>& values, bool raise_bounds);
 
 }  // namespace tern::mavlink

@@ -198,7 +198,7 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
   if (options.pace != 1.0 && !options.autopilot.empty() && !options.autopilot_sim) {
     throw std::runtime_error("--pace: a real autopilot's clock cannot be slowed; use --pace 1");
   }
-  options.default_dynamics = !options.autopilot.empty() && !scenario.uav.limits.dynamics;
+  if (!options.autopilot.empty()) options.autopilot_limits = autopilot_limits(scenario.uav.limits);
   int looked[2] = {-1, -1};
   if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
   int listens[2] = {-1, -1};

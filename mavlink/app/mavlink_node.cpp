@@ -45,13 +45,24 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
 }
 
 MavlinkNode::~MavlinkNode() {
-  if (exit_code_ || !bridge_.flies()) return;
-  const UTime end = bus_.clock().now() + kLandPatience;
+  if (!exit_code_ && bridge_.flies()) land();
+  if (bridge_.has_set_parameters()) {
+    log::error("parameters of the autopilot were not set back: it is armed or silent (\"sets …\" above has them)");
+  }
+}
+
+/// Counts its looks: the clock of a virtual flight stands still here.
+void MavlinkNode::land() {
+  constexpr std::chrono::milliseconds kPause(5);
   bridge_.land("asked to end");
-  for (UTime now = bus_.clock().now(); now < end && bridge_.stage() == Stage::Landing; now = bus_.clock().now()) {
-    exchange(now);
-    publish(now);
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  bridge_.end_parameters();
+  const auto is_busy = [&] {
+    return bridge_.stage() == Stage::Landing || (bridge_.has_set_parameters() && !bridge_.autopilot().armed());
+  };
+  for (auto left = std::chrono::microseconds(kLandPatience.us); left.count() > 0 && is_busy(); left -= kPause) {
+    exchange(bus_.clock().now());
+    publish(bus_.clock().now());
+    std::this_thread::sleep_for(kPause);
   }
   next_status_ = bus_.clock().now();
   publish(next_status_);
@@ -83,6 +94,7 @@ bool MavlinkNode::end(UTime now) {
     return false;
   }
   asked_to_end_ = now;
+  bridge_.end_parameters();
   bridge_.land("asked to end");
   next_report_ = now + kReportPeriod;
   if (is_needed()) log::warn("asked to end: goes on until the vehicle is disarmed, unless asked again");
@@ -92,7 +104,10 @@ bool MavlinkNode::end(UTime now) {
 void MavlinkNode::finish_if_disarmed(UTime now) {
   const bool is_known = bridge_.autopilot().address() || now - begun_ > kFirstHeartbeat;
   if (exit_code_ || !is_known) return;
+  if (is_needed()) disarmed_since_.reset();
   if (!is_needed()) {
+    if (!disarmed_since_) disarmed_since_ = now;
+    if (bridge_.has_set_parameters() && now - *disarmed_since_ < kSetBackPatience) return;
     if (bridge_.stage() == Stage::Landed) log::info("the autopilot has landed");
     return finish(0);
   }

@@ -25,10 +25,12 @@ namespace tern::mavlink {
 /// - Asked to end, it has the autopilot land what it flies, and goes on until the vehicle is disarmed. So a pilot who
 ///   flies keeps the external vision. It gives up when the link is silent for kLinkPatience, or when it is asked
 ///   again after kSameSignal. It then says that the vehicle is armed, and ends with kExitArmed.
+/// - Before it ends it sets back the parameters that it has set. It waits up to kSetBackPatience for that.
 /// - If an error ends it while it flies, it has the autopilot land, and waits up to kLandPatience for that.
 class MavlinkNode final : public Node {
  public:
-  static constexpr Duration kLandPatience{30'000'000}, kLinkPatience{10'000'000}, kSameSignal{1'000'000};
+  static constexpr Duration kLandPatience{30'000'000}, kLinkPatience{10'000'000}, kSameSignal{1'000'000},
+      kSetBackPatience{3'000'000};
   static constexpr int kExitArmed = 5;  ///< docs/reference/exit_codes.md
   MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& uav, const BridgeConfig& config,
               std::optional<SigningKey> key);
@@ -51,6 +53,7 @@ class MavlinkNode final : public Node {
   void end_armed(const std::string& why);
   void exchange(UTime now);
   void publish(UTime now);
+  void land();
   void log_lines();
   [[nodiscard]] bool alone(UTime now) const;
 
@@ -62,7 +65,7 @@ class MavlinkNode final : public Node {
   UTime begun_, next_, next_status_;
   UTime received_;  ///< receive time of the newest bytes, at most now
   std::optional<UTime> other_received_;
-  std::optional<UTime> asked_to_end_;
+  std::optional<UTime> asked_to_end_, disarmed_since_;
   UTime next_report_;  ///< while it is asked to end
   std::optional<int> exit_code_;
   std::optional<std::int64_t> goal_id_;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "mavlink/autopilot.h"
 #include "mavlink/axes.h"
@@ -12,33 +13,19 @@ namespace tern::mavlink {
 namespace {
 
 constexpr std::uint8_t kRejected = 1, kDenied = 2, kUnsupported = 3;
-constexpr std::uint8_t kInt32 = 6, kReal32 = 9;
 constexpr std::uint8_t kGroundStation = 6;
 constexpr Duration kOldTarget{500'000}, kStreamFirst{500'000}, kDisarmAfter{1'000'000};
 constexpr Duration kTextsFor{2'500'000};
-/// COM_SPOOLUP_TIME, MPC_TKO_RAMP_T, COM_DISARM_PRFLT, COM_DL_LOSS_T.
-constexpr Duration kSpoolUp{1'000'000}, kRamp{3'000'000}, kTakeOffPatience{10'000'000}, kLinkLoss{10'000'000};
+/// COM_SPOOLUP_TIME, COM_DISARM_PRFLT, COM_DL_LOSS_T.
+constexpr Duration kSpoolUp{1'000'000}, kTakeOffPatience{10'000'000}, kLinkLoss{10'000'000};
 /// Share of its speed at the beginning of the ramp.
 constexpr double kRampFrom = 0.02;
 constexpr double kDescend = 0.7, kStop = 4.0;
-constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT",  "NAV_DLL_ACT",
-                               "EKF2_EV_CTRL",   "EKF2_HGT_REF",   "EKF2_GPS_CTRL",   "EKF2_MAG_TYPE",
-                               "EKF2_BARO_CTRL", "MC_AIRMODE",     "MPC_ACC_DECOUPLE"};
 constexpr std::uint8_t kUnknownSource = 0, kNaive = 1, kVision = 2, kVio = 3, kLocalNed = 1;
 /// After this long without ODOMETRY the estimator has no position (EKF2_NOAID_TOUT is longer).
 constexpr Duration kVisionLoss{1'000'000};
 /// After a longer gap the estimator takes external vision up anew, metres away, and corrects itself later.
 constexpr Duration kVisionGap{400'000}, kVisionAway{5'000'000};
-
-bool is_integer(const std::string& name) { return std::ranges::find(kIntegers, name) != kIntegers.end(); }
-
-/// The configuration without the feed-forward, which the bridge sends.
-QuadrotorConfig bare(const SimulatedAutopilotConfig& config) {
-  QuadrotorConfig quadrotor = config.quadrotor;
-  quadrotor.controller.velocity_d = config.velocity_d;
-  quadrotor.controller.drag_per_s = quadrotor.controller.lead_s = 0.0;
-  return quadrotor;
-}
 
 }  // namespace
 
@@ -48,16 +35,9 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
       started_(now),
       last_step_(now),
       now_(now),
-      parameters_{{"COM_OBL_RC_ACT", 0.0},   {"COM_OF_LOSS_T", 1.0},     {"MPC_XY_VEL_D_ACC", config.velocity_d},
-                  {"COM_RC_IN_MODE", 3.0},   {"COM_RCL_EXCEPT", 0.0},    {"NAV_DLL_ACT", 2.0},
-                  {"MPC_XY_VEL_MAX", 12.0},  {"MPC_Z_VEL_MAX_UP", 3.0},  {"MPC_Z_VEL_MAX_DN", 1.5},
-                  {"MPC_TILTMAX_AIR", 45.0}, {"MC_ROLLRATE_MAX", 220.0}, {"MC_PITCHRATE_MAX", 220.0},
-                  {"EKF2_EV_CTRL", 0.0},     {"EKF2_HGT_REF", 1.0},      {"EKF2_GPS_CTRL", 7.0},
-                  {"EKF2_MAG_TYPE", 0.0},    {"EKF2_BARO_CTRL", 1.0},    {"SIM_ARM_REFUSE", 0.0},
-                  {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0},      {"GUID_TIMEOUT", 3.0},
-                  {"SIM_EV_JUMP", 8.3},      {"FS_GCS_ENABLE", 0.0},     {"SIM_HOME_UP", 0.0},
-                  {"MC_AIRMODE", 0.0},       {"MPC_ACC_DECOUPLE", 1.0},  {"SYSID_MYGCS", 255.0},
-                  {"ANGLE_MAX", 3000.0},     {"PSC_JERK_XY", 5.0},       {"PSC_JERK_Z", 5.0}} {
+      parameters_(default_parameters(config)) {
+  if (config.tuned) take_tuned_parameters();
+  tilt_deg_ = parameters_["MPC_TILTMAX_LND"];
   model_.set_armed(false);
   tune();
   begin_streams(now);
@@ -236,65 +216,24 @@ void SimulatedAutopilot::receive_target(const SetPositionTargetLocalNed& target,
   target_.yaw = swapped_yaw(target.yaw);
 }
 
-void SimulatedAutopilot::set_parameter(const std::string& name, double value) {
-  const auto found = parameters_.find(name);
-  if (found == parameters_.end()) return;
-  found->second = value;
-  tune();
-  if (name == "SIM_BAT_PCT") battery_ = std::clamp(value / 100.0, 0.0, 1.0);
-  if (name == "SIM_EST_JUMP") model_.jump_estimate(value);
-}
-
-void SimulatedAutopilot::tune() {
-  constexpr double kRadians = std::numbers::pi / 180.0;
-  FlightControllerSpec gains = bare(config_).controller;
-  gains.tilt_max = parameters_["MPC_TILTMAX_AIR"] * kRadians;
-  gains.rate_max = std::min(parameters_["MC_ROLLRATE_MAX"], parameters_["MC_PITCHRATE_MAX"]) * kRadians;
-  gains.speed_max = ramp_ * std::hypot(parameters_["MPC_XY_VEL_MAX"], parameters_["MPC_Z_VEL_MAX_UP"]);
-  model_.tune(gains);
-}
-
-void SimulatedAutopilot::send_parameter(const std::string& name) {
-  const auto found = parameters_.find(name);
-  if (found == parameters_.end()) return;
-  const bool integer = !is_ardupilot() && is_integer(name);
-  const float value =
-      integer ? std::bit_cast<float>(static_cast<std::int32_t>(found->second)) : static_cast<float>(found->second);
-  send(ParamValue{.param_value = value,
-                  .param_count = static_cast<std::uint16_t>(parameters_.size()),
-                  .param_id = text_of<16>(name),
-                  .param_type = integer ? kInt32 : kReal32});
-}
-
 void SimulatedAutopilot::receive(const Frame& frame, UTime now, bool on_its_link) {
   now_ = now;
-  const auto mine = [](std::uint8_t system, std::uint8_t component) {
-    return system == kSelf.system && (component == 0 || component == kSelf.component);
-  };
   if (const auto m = from_frame<Heartbeat>(frame); m && m->type == kGroundStation) {
     ground_station_received_ = now;
     if (on_its_link) linked_ground_station_received_ = now;
   }
-  if (const auto m = from_frame<CommandLong>(frame); m && mine(m->target_system, m->target_component)) {
-    receive_command(*m, frame.from, now);
+  if (const auto m = from_frame<CommandLong>(frame)) {
+    const bool to_all = m->command == kRequestMessage && m->target_system == 0;
+    if (to_all || is_mine(m->target_system, m->target_component)) receive_command(*m, frame.from, now);
   }
   if (const auto m = from_frame<SetPositionTargetLocalNed>(frame)) {
-    if (m->target_system == 0 || mine(m->target_system, m->target_component)) receive_target(*m, now);
+    if (m->target_system == 0 || is_mine(m->target_system, m->target_component)) receive_target(*m, now);
   }
   if (const auto m = from_frame<Odometry>(frame)) receive_vision(*m, now);
   if (const auto m = from_frame<Timesync>(frame); m && m->tc1 == 0) {
     send(Timesync{.tc1 = static_cast<std::int64_t>(clock_us(now)) * 1000, .ts1 = m->ts1});
   }
-  if (const auto m = from_frame<ParamRequestRead>(frame); m && mine(m->target_system, m->target_component)) {
-    send_parameter(string_of(m->param_id));
-  }
-  if (const auto m = from_frame<ParamSet>(frame); m && mine(m->target_system, m->target_component)) {
-    const std::string name = string_of(m->param_id);
-    const bool integer = !is_ardupilot() && is_integer(name);
-    if (!is_ardupilot() && m->param_type != (integer ? kInt32 : kReal32)) return;
-    set_parameter(name, integer ? std::bit_cast<std::int32_t>(m->param_value) : static_cast<double>(m->param_value));
-    send_parameter(name);
-  }
+  receive_parameters(frame);
 }
 
 void SimulatedAutopilot::watch_offboard(UTime now) {
@@ -314,7 +253,7 @@ bool SimulatedAutopilot::rotors_lift(UTime t) {
   if (!armed_) return false;
   if (is_ardupilot()) return ardupilots_rotors_lift(t);
   if (ramp_since_) {
-    const double progress = std::min((t - *ramp_since_).seconds() / kRamp.seconds(), 1.0);
+    const double progress = std::min((t - *ramp_since_).seconds() / std::max(parameters_["MPC_TKO_RAMP_T"], 1e-3), 1.0);
     if (ramp_ < 1.0) {
       ramp_ = std::max(progress, kRampFrom);
       tune();
@@ -348,6 +287,7 @@ void SimulatedAutopilot::fly(UTime now) {
     command_.motion.j = Vec3::Zero();
     model_.command(command_);
     model_.set_armed(rotors_lift(t));
+    limit_tilt(kVehicleStep.seconds());
     model_.advance(t);
     if (!model_.truth().on_ground || mode_ != Mode::Land || !armed_) {
       landed_since_.reset();

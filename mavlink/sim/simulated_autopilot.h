@@ -16,12 +16,13 @@ enum class Manners : std::uint8_t { Px4, ArduPilot };
 
 /// The section `autopilot_sim`.
 ///
-/// Six keys of `quadrotor.controller` are ignored: an autopilot has velocity_d, tilt_max, rate_max and speed_max from
-/// its parameters, and leaves drag_per_s and lead_s to the bridge.
+/// Of `quadrotor.controller`, drag_per_s and lead_s are ignored: they are the bridge's. The simulated PX4 has its gains
+/// and limits from its parameters, the simulated ArduPilot its limits.
 struct SimulatedAutopilotConfig {
   Manners manners = Manners::Px4;
   double clock_rate = 0.99;
   double velocity_d = 0.2;
+  bool tuned = false;
   Duration answer_after{100'000};
   Duration busy_for{2'000'000};
   QuadrotorConfig quadrotor;  ///< this and the next two are read from the section `simulator`
@@ -37,6 +38,8 @@ struct SimulatedAutopilotConfig {
     v("busy_s", busy_for, Range{0.0, 60.0}, "how long the autopilot rejects commands temporarily after its start, s");
     v("velocity_d", velocity_d, Range{0.0, 2.0},
       "MPC_XY_VEL_D_ACC: D gain of the velocity loop, which opposes the whole acceleration");
+    v("tuned", tuned,
+      "its parameters are the gains and limits of `simulator.quadrotor.controller`; false: the firmware's defaults");
   }
 };
 
@@ -52,6 +55,8 @@ struct SimulatedAutopilotConfig {
 /// | setpoints cease | after COM_OF_LOSS_T: COM_OBL_RC_ACT            | after GUID_TIMEOUT: stops, in GUIDED         |
 /// | setpoints again | returns to OFFBOARD                            | follows them                                 |
 /// | take-off        | by setpoints: spin-up 1 s, speed ramp 3 s      | by NAV_TAKEOFF; a setpoint ends it           |
+/// | tilt limit      | MPC_TILTMAX_LND (12°) until the speed ramp has | ANGLE_MAX                                    |
+/// |                 | ended, then 11.5°/s up to MPC_TILTMAX_AIR      |                                              |
 /// | no take-off     | disarms after 10 s                             | disarms after 10 s                           |
 /// | after landing   | disarms; the mode is that before landing       | disarms; stays in LAND                       |
 /// | parameters      | integers bytewise; only the right type is set  | numbers, of any type                         |
@@ -69,7 +74,8 @@ struct SimulatedAutopilotConfig {
 ///   position and velocity in any case.
 /// - If ODOMETRY comes back after more than 0.4 s, the estimate of such a vehicle jumps up by SIM_EV_JUMP, and back
 ///   after 5 s. The default is 8.3 m, as measured. Setpoints stay where they were sent; own modes move along.
-/// - Any system may command it, with the right target. Requests for unknown parameters get no answer.
+/// - Any system may command it, with the right target. REQUEST_MESSAGE may be for all systems. Requests for unknown
+/// parameters get no answer.
 /// - The velocity loop has the D term MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
 /// - ArduPilot's home is where it was armed, shifted up by SIM_HOME_UP.
 ///
@@ -117,7 +123,13 @@ class SimulatedAutopilot {
   void receive_vision(const Odometry& seen, UTime now);
   void jump_up(double metres);
   void receive_target(const SetPositionTargetLocalNed& target, UTime now);
+  /// The firmware's own values, and the hover thrust of this vehicle.
+  static std::map<std::string, double> default_parameters(const SimulatedAutopilotConfig& config);
+  static QuadrotorConfig bare(const SimulatedAutopilotConfig& config);
+  void receive_parameters(const Frame& frame);
   void set_parameter(const std::string& name, double value);
+  void take_tuned_parameters();
+  void limit_tilt(double dt);
   void tune();
   void send_parameter(const std::string& name);
   void watch_offboard(UTime now);
@@ -137,6 +149,9 @@ class SimulatedAutopilot {
   }
 
   static constexpr Address kSelf{1, 1};
+  static bool is_mine(std::uint8_t system, std::uint8_t component) {
+    return system == kSelf.system && (component == 0 || component == kSelf.component);
+  }
   SimulatedAutopilotConfig config_;
   QuadrotorModel model_;
   UTime started_;
@@ -155,6 +170,7 @@ class SimulatedAutopilot {
   std::optional<double> takes_off_to_;  ///< in the estimate's frame, m
   bool guided_ = false;                 ///< setpoints were received since GUIDED began
   double ramp_ = 1.0;                   ///< share of its speed during take-off
+  double tilt_deg_ = 0.0;               ///< present tilt limit
   UTime last_step_, now_;
   double battery_ = 0.9;
   std::map<std::string, double> parameters_;

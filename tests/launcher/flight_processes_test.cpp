@@ -49,6 +49,18 @@ TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
   EXPECT_LT(ours, users) << "the user's values win";
 }
 
+TEST(FlightProcesses, KeepAnAutopilotWithinPx4sDefaultBoundsUnlessTheScenarioStatesItsVehicle) {
+  Limits limits;
+  limits.v_max = Vec3(6, 6, 6);
+  EXPECT_EQ(autopilot_limits(limits),
+            (Words{"uav.dynamics={thrust_min: 4, thrust_max: 16, tilt_max: 38, body_rate_max: 170}",
+                   "uav.limits.v_max=[6, 6, 1.5]"}));
+  limits.v_max = Vec3(30, 40, 1);
+  EXPECT_EQ(autopilot_limits(limits)[1], "uav.limits.v_max=[7.199999999999999, 9.6, 1]");
+  limits.dynamics.emplace();
+  EXPECT_EQ(autopilot_limits(limits), Words());
+}
+
 TEST(FlightProcesses, AreAllRestartedButTheMonitor) {
   for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
     EXPECT_EQ(p.restarted, p.name != "tern-monitor") << p.name;

@@ -449,10 +449,15 @@ TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
   const auto faults = [&](bool without_remote, bool vision) {
     return parameter_faults(required_parameters(Firmware::Px4, uav, 1, without_remote, vision), values, true);
   };
-  EXPECT_THAT(faults(false, false), HasSubstr("MPC_Z_VEL_MAX_DN is 1.5, below 2: it clips"));
+  const auto all = faults(false, false);
+  EXPECT_THAT(all, HasSubstr("uav.limits.v_max (z) is 2, but MPC_Z_VEL_MAX_DN is 1.5: 1.5 would fit"));
+  EXPECT_THAT(all, HasSubstr("uav.dynamics.tilt_max is 60, but MPC_TILTMAX_AIR is 45: 36 would fit"));
+  EXPECT_THAT(all, HasSubstr("uav.dynamics.body_rate_max is 500, but MC_PITCHRATE_MAX is 220: 176 would fit"));
+  EXPECT_THAT(all, Not(HasSubstr("thrust")));
+  values["MPC_THR_HOVER"] = 0.625;
   EXPECT_THAT(faults(false, false),
-              HasSubstr("MPC_TILTMAX_AIR is 45, below 60: plans may tilt up to uav.dynamics.tilt_max"));
-  EXPECT_THAT(faults(false, false), HasSubstr("MC_PITCHRATE_MAX is 220, below 500"));
+              HasSubstr("uav.dynamics.thrust_max is 19.6, but MPC_THR_HOVER is 0.625 (allows 15.69): 12.6 would fit"));
+  values["MPC_THR_HOVER"] = 0.5F;
   values["MPC_Z_VEL_MAX_DN"] = 2, values["MPC_TILTMAX_AIR"] = 60, values["MC_PITCHRATE_MAX"] = 500;
   EXPECT_EQ(faults(false, false), "");
   EXPECT_THAT(faults(true, false), HasSubstr("COM_RC_IN_MODE was not read"));
@@ -468,7 +473,7 @@ TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
   values["MPC_ACC_DECOUPLE"] = 1;
   EXPECT_THAT(faults(true, true), HasSubstr("MPC_ACC_DECOUPLE is 1, not within [0, 0]"));
   uav.limits.dynamics.reset();
-  EXPECT_THAT(faults(false, false), HasSubstr("MPC_TILTMAX_AIR is 60, below 85")) << "plans may ask for any tilt";
+  EXPECT_THAT(faults(false, false), HasSubstr("uav.dynamics.tilt_max (not stated) is 85, but MPC_TILTMAX_AIR is 60"));
 }
 
 TEST(RequiredParameters, OfACopterAreThoseThatShapeWhatItIsTold) {
@@ -480,7 +485,7 @@ TEST(RequiredParameters, OfACopterAreThoseThatShapeWhatItIsTold) {
     return parameter_faults(required_parameters(Firmware::ArduPilot, uav, 3, false, false), values, true);
   };
   EXPECT_THAT(faults(), HasSubstr("SYSID_MYGCS is 255, not within [3, 3]"));
-  EXPECT_THAT(faults(), HasSubstr("ANGLE_MAX is 3000, below 3800"));
+  EXPECT_THAT(faults(), HasSubstr("uav.dynamics.tilt_max is 38, but ANGLE_MAX is 3000 (allows 30): 24 would fit"));
   EXPECT_THAT(faults(), HasSubstr("PSC_JERK_XY is 5, below 47.4"));  // 16 m/s2 that turn by 170 degrees/s
   uav.limits.j_max = Vec3(3, 4, 2);
   EXPECT_THAT(faults(), Not(HasSubstr("PSC_JERK")));

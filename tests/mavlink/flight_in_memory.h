@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <vector>
 
 #include "core/base/random.h"
@@ -33,7 +35,10 @@ class FlightInMemory {
  public:
   explicit FlightInMemory(const BridgeConfig& bridge_config = {.start = Start::Arm, .set_parameters = true},
                           const SimulatedAutopilotConfig& autopilot_config = {}, std::uint64_t seed = 1)
-      : config(bridge_config), rng(seed), bridge(bridge_config, uav(), now), autopilot(autopilot_config, seed, now) {}
+      : config(bridge_config), rng(seed), bridge(bridge_config, uav(), now), autopilot(autopilot_config, seed, now) {
+    set_parameter("ANGLE_MAX", 4500.0F);  // an ArduPilot whose owner allows the tilt of uav()
+    autopilot.take_frames();
+  }
 
   static UavSpec uav() {
     UavSpec spec;
@@ -100,6 +105,20 @@ class FlightInMemory {
         to_frame(ParamSet{.param_value = value, .target_system = 1, .param_id = text_of<16>(name), .param_type = 9},
                  {255, 190}, 0),
         now);
+  }
+  /// The value in the autopilot, as another ground station reads it. Its other frames of this moment are lost.
+  float parameter(const std::string& name) {
+    autopilot.take_frames();
+    autopilot.receive(to_frame(ParamRequestRead{.target_system = 1, .param_id = text_of<16>(name)}, {255, 190}, 0),
+                      now);
+    for (const Frame& frame : autopilot.take_frames()) {
+      const auto value = from_frame<ParamValue>(frame);
+      if (value && string_of(value->param_id) == name) {
+        return value->param_type == 6 ? static_cast<float>(std::bit_cast<std::int32_t>(value->param_value))
+                                      : value->param_value;
+      }
+    }
+    throw std::runtime_error("no parameter " + name);
   }
 
   BridgeConfig config;

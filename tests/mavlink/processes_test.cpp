@@ -117,8 +117,8 @@ class MavlinkProcesses : public testing::Test, protected NetworkEnd {
   }
   std::unique_ptr<Child> make_bridge(int port, std::vector<std::string> more = {}) {
     std::vector<std::string> words{TERN_MAVLINK, "--connect", "udp://127.0.0.1:" + std::to_string(port)};
-    for (const char* value :
-         {"mavlink.start=arm", "mavlink.set_parameters=true", "mavlink.without_remote=true", "mavlink.climb_speed=3"}) {
+    for (const char* value : {"mavlink.start=arm", "mavlink.set_parameters=true", "uav.dynamics.tilt_max=45",
+                              "uav.limits.v_max=[6, 6, 1.5]", "mavlink.without_remote=true", "mavlink.climb_speed=3"}) {
       more.insert(more.begin(), {"--set", value});
     }
     words.insert(words.end(), more.begin(), more.end());

@@ -88,11 +88,13 @@ void keep_flying_along(FlightInMemory& flight) {
 }
 
 TEST(StartedAnew, ItsFirstSetpointIsWhereTheVehicleIsAndItJoinsTheFlight) {
-  for (const Start start : {Start::Arm, Start::Pilot}) {
+  // An autopilot sends HEARTBEAT once a second: the restart is at any time between two.
+  for (const auto& [start, later_s] : {std::pair(Start::Arm, 0.0), std::pair(Start::Pilot, 0.2),
+                                       std::pair(Start::Arm, 0.45), std::pair(Start::Pilot, 0.7)}) {
     FlightInMemory flight;
     ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
     keep_flying_along(flight);
-    flight.run(4.0);
+    flight.run(4.0 + later_s);
     flight.config.start = start;
     flight.bridge_runs = false;
     flight.run(0.05);

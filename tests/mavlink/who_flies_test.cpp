@@ -157,7 +157,11 @@ TEST(WhoFlies, ASwitchBesideItsCommandToTakeOverIsNotOverruled) {
     flight.ground_station(flight.bridge.autopilot().firmware() == Firmware::Px4 ? switch_to(3) : switch_to(9));
     flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; });
     flight.run(1.0);
+    // A mode is commanded at a HEARTBEAT. Without one for 0.5 s, every switch of the pilot comes after the order.
+    flight.hides = [](const Frame& frame) { return frame.id == Heartbeat::kId; };
     flight.bridge.order_flight();
+    flight.run(0.5);
+    flight.hides = nullptr;
     flight.run(1.6);
   };
   expect_nothing_is_overruled(story, kDoSetMode, Duration{-300'000});
