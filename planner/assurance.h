@@ -16,7 +16,12 @@ struct Assurance {
   Duration sure_for = kMaxSpan;  ///< α grows until t_s + sure_for and stays constant from then on
 };
 
-/// The reduced assurances in the order in which plan_with_reduced_assurance() tries them:
+/// Returns whether all of α applies, as long as movers are predicted.
+inline bool is_full(const Assurance& assurance) {
+  return assurance.level == 0 && assurance.scale == 1.0 && assurance.sure_for == kMaxSpan;
+}
+
+/// The reduced assurances in the order in which the schedule tries them:
 ///  1. α at the full level stops growing after kGrowthTimes · side_step_s. Later motion is predicted again before
 ///     the vehicle must act on it.
 ///  2. α at the levels kReducedLevels, growing for one side step.

@@ -49,7 +49,10 @@ void evaluate(const Surroundings& near, const Course& course, Candidate& candida
   candidate.arrival_s = arrival_with_exposure(near, course, candidate.trajectory);
   const OptimizationConfig& weights = near.config.optimization;
   PlanCost& cost = candidate.cost;
+  const Vec3& start = near.request.start.p;
   cost.distance_to_goal = (candidate.trajectory.control_points.rightCols<1>() - course.local.goal).norm();
+  candidate.progress = progress_share(start, course.local.goal, candidate.trajectory);
+  candidate.approaches = cost.distance_to_goal < (course.local.goal - start).norm() - kMinApproach;
   cost.total = weights.weight_jerk * cost.jerk + weights.weight_goal * cost.distance_to_goal * cost.distance_to_goal;
 }
 

@@ -11,24 +11,22 @@
 
 namespace tern {
 
-/// A certified trajectory that may become the plan, with the values by which candidates are compared.
+/// A certified trajectory that may become the plan, with the values by which candidates are compared (preference.h).
 struct Candidate {
   PlanOutcome outcome = PlanOutcome::NoPlan;
   Assurance assurance;   ///< the assurance that it was certified at
   bool relaxed = false;  ///< StartClearance::relaxed at that assurance
   TimedSpline trajectory;
-  double clear_s = 0.0;    ///< from t_s until the end point stops being clear, or to the last time that was tested, s
-  double hold_s = 0.0;     ///< the part of clear_s after the end: the terminal clear time, s
-  bool holds = false;      ///< hold_s reaches the required hold
-  double arrival_s = 0.0;  ///< estimated arrival at the goal after t_s, with exposure (arrival_with_exposure), s
+  double clear_s = 0.0;     ///< from t_s until the end point stops being clear, or to the last time that was tested, s
+  double hold_s = 0.0;      ///< the part of clear_s after the end: the terminal clear time, s
+  bool holds = false;       ///< hold_s reaches the required hold
+  double arrival_s = 0.0;   ///< estimated arrival at the goal after t_s, with exposure (arrival_with_exposure), s
+  double progress = 0.0;    ///< share of the distance to the local goal that it covers (progress_share)
+  bool approaches = false;  ///< it ends nearer to the local goal than the start, by more than kMinApproach
+  bool meets_declared = false;  ///< committed trajectory: a declared or static obstacle ends clear_s
+  double room = 0.0;            ///< of an evasion: distance from its end to the nearest obstacle's box, m
   PlanCost cost;
   std::vector<CertificatePlane> certificate;
-
-  /// Compares by `holds` first, then by the earlier arrival.
-  [[nodiscard]] bool is_preferred_to(const Candidate& other) const {
-    if (holds != other.holds) return holds;
-    return arrival_s < other.arrival_s;
-  }
 };
 
 /// The problem of one duration.
@@ -40,7 +38,7 @@ struct Attempt {
   double hold_required_s = 0.0;  ///< terminal clear time from which on the candidate holds, s
 };
 
-/// Sets the candidate's arrival, and the terms of its cost that depend on the course.
+/// Sets the values of a candidate that depend on the course: arrival, progress and terms of its cost.
 void evaluate(const Surroundings& near, const Course& course, Candidate& candidate);
 
 /// Appends times up to hold_s after the last of `times`, `step` apart, s.

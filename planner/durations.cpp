@@ -5,8 +5,8 @@
 
 #include "planner/attempt.h"
 #include "planner/plan_workspace.h"
-#include "planner/problem/tuning.h"
 #include "planner/refinement.h"
+#include "planner/stop_rule.h"
 
 namespace tern {
 namespace {
@@ -16,24 +16,16 @@ PlanReason reason_of_nothing(const Surroundings& near, const Budget& budget) {
   return budget.cuts().empty() ? PlanReason::Infeasible : PlanReason::OutOfTime;
 }
 
-/// Returns whether the loop ends before the next, longer duration.
-bool is_enough(const Surroundings& near, const Course& course, const Incumbent& incumbent, Budget& budget) {
-  const std::optional<Candidate>& best = incumbent.best();
-  if (!best) return false;
-  const bool arrives = best->holds && best->cost.distance_to_goal <= kAtLocalGoal * step_scale(course.local.radius);
-  const bool stays = is_at_rest(near.request) && !incumbent.makes_progress();
-  return (arrives && !stays) || budget.expired(Stage::LocalGoal);
-}
-
 }  // namespace
 
-PlanReason try_durations(const Surroundings& near, const Course& course, Phase phase, const SearchConfig& search,
-                         Incumbent& incumbent, PlanTools& tools) {
+PlanReason try_durations(const Surroundings& near, const Course& course, const Trial& trial, Incumbent& incumbent,
+                         PlanTools& tools) {
   const PlannerConfig& config = near.config;
-  const SearchConfig lengths = scaled(search, course.local.radius, course.local.planned_s);
+  const SearchConfig search =
+      scaled(effort_of(trial.effort, config.search), course.local.radius, course.local.planned_s);
   for (const double scale : config.duration_scales) {
-    if (!tools.budget.begin_attempt(phase)) break;
-    if (is_enough(near, course, incumbent, tools.budget)) break;
+    if (!tools.budget.begin_attempt(trial.phase) || is_long_enough(incumbent, course, near)) break;
+    if (incumbent.best() && tools.budget.expired(Stage::LocalGoal)) break;
     const std::optional<Duration> interval = interval_of(scale * course.local.planned_s, config.intervals);
     if (!interval) break;
     const double end_s = interval->seconds() * config.intervals;
@@ -43,7 +35,7 @@ PlanReason try_durations(const Surroundings& near, const Course& course, Phase p
     tools.log.enter(Stage::BroadPhase);
     SweptObstacles& swept = tools.memory.horizon;
     sweep_horizon(attempt, tools.memory.times, swept);
-    if (auto leaf = search_candidate(attempt, lengths, swept, tools)) {
+    if (auto leaf = search_candidate(attempt, search, swept, tools)) {
       incumbent.report_leaf(*leaf);
       incumbent.offer(refined(attempt, std::move(*leaf), swept, tools));
     }

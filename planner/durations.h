@@ -3,21 +3,18 @@
 
 #include "planner/course.h"
 #include "planner/incumbent.h"
-#include "planner/plan_log.h"
-#include "planner/surroundings.h"
+#include "planner/schedule.h"
 
 namespace tern {
 
 /// Tries config.duration_scales of the planned duration, in order. Each search result is optimized and offered to the
 /// incumbent.
 ///
-/// The loop ends with the first candidate that holds and ends within kAtLocalGoal of the local goal. At rest this
-/// candidate must also make progress. The loop also ends with the budget, or when the obstacles are not known for as
-/// long as the next duration and its hold.
-/// @param phase   the phase that the attempts are counted in
-/// @param search for local goals at kFullStep and beyond; it is scaled() for nearer ones
+/// The loop ends when is_long_enough() (stop_rule.h). It also ends with the budget, or when the obstacles are not known
+/// for as long as the next duration and its hold.
+/// @param trial  its phase and effort. The search's lengths are scaled() to local goals nearer than kFullStep.
 /// @return the reason if there is no new plan
-PlanReason try_durations(const Surroundings& near, const Course& course, Phase phase, const SearchConfig& search,
-                         Incumbent& incumbent, PlanTools& tools);
+PlanReason try_durations(const Surroundings& near, const Course& course, const Trial& trial, Incumbent& incumbent,
+                         PlanTools& tools);
 
 }  // namespace tern

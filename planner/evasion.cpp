@@ -9,6 +9,7 @@
 #include "core/world/flyable.h"
 #include "planner/duration.h"
 #include "planner/plan_workspace.h"
+#include "planner/preference.h"
 #include "planner/problem/tuning.h"
 
 namespace tern {
@@ -41,11 +42,11 @@ struct Stop {
 };
 
 /// Returns the distances of stops, m; for Room only the far ones.
-std::vector<double> distances(const Surroundings& near, Phase phase) {
+std::vector<double> distances(const Surroundings& near, Aim aim) {
   const double r = near.config.sphere_radius_m;
   std::vector<double> all;
   for (const double share : kStopShares) all.push_back(share * r);
-  if (phase == Phase::Room) return all;
+  if (aim == Aim::Room) return all;
   for (const double widths : kStopWidths) {
     const double distance = widths * near.hold.width;
     if (distance > 0.0 && distance < kMaxWidthShare * r) all.push_back(distance);
@@ -95,11 +96,11 @@ std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3
 }
 
 /// Returns the best kMaxStops stops within the flight box, the best forecast first.
-std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorkspace& memory) {
+std::vector<Stop> ordered_stops(const Surroundings& near, Aim aim, PlanWorkspace& memory) {
   std::vector<Stop> stops;
   double longest = 0.0;
-  const std::size_t ways = phase == Phase::Room ? kFacesAndCorners : directions().size();
-  for (const double distance : distances(near, phase)) {
+  const std::size_t ways = aim == Aim::Room ? kFacesAndCorners : directions().size();
+  for (const double distance : distances(near, aim)) {
     for (std::size_t k = 0; k < ways; ++k) {
       for (const double pace : kStopPaces) {
         const auto stop = stop_at(near, near.room, near.request.start.p + directions()[k] * distance, pace);
@@ -129,13 +130,13 @@ double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline
 
 }  // namespace
 
-std::optional<Candidate> find_evasion(const Surroundings& near, const Course& course, Phase phase, PlanTools& tools) {
-  SearchConfig search = near.config.search;
-  search.max_expansions = kStopExpansions;
+std::optional<Candidate> find_evasion(const Surroundings& near, const Course& course, const Trial& trial,
+                                      PlanTools& tools) {
+  const SearchConfig search = effort_of(trial.effort, near.config.search);
+  const bool seeks_room = trial.aim == Aim::Room;
   std::optional<Candidate> best;
-  double best_measure = 0.0;
-  for (const Stop& stop : ordered_stops(near, phase, tools.memory)) {
-    if (!tools.budget.begin_attempt(phase) || tools.budget.expired(Stage::Search)) return best;
+  for (const Stop& stop : ordered_stops(near, trial.aim, tools.memory)) {
+    if (!tools.budget.begin_attempt(trial.phase) || tools.budget.expired(Stage::Search)) return best;
     const Course there{{stop.point, 0.0, stop.way_s}, {stop.point, 0.0}, course.step_s, course.pace, nullptr};
     const double look_s = near.hold.cap_of_stop(stop.way_s);
     if (!is_followed(near, stop.interval, look_s)) continue;
@@ -148,14 +149,11 @@ std::optional<Candidate> find_evasion(const Surroundings& near, const Course& co
     found->outcome = PlanOutcome::Evade;
     evaluate(near, course, *found);
     found->holds = lasts(found->hold_s, near.hold.required(stop.way_s));
-    const bool by_time = phase == Phase::Evasion;
-    if (!by_time && !found->holds) continue;
-    const double measure = by_time ? found->clear_s : room_at_end(swept, near.config.intervals, found->trajectory);
-    if (best && measure <= best_measure) continue;
-    const bool lasts_on = lasts(found->hold_s, look_s);
+    if (seeks_room && !found->holds) continue;
+    if (seeks_room) found->room = room_at_end(swept, near.config.intervals, found->trajectory);
+    if (best && !is_better_stop(*found, *best, trial.aim)) continue;
     best = std::move(found);
-    best_measure = measure;
-    if (by_time && lasts_on) return best;
+    if (!seeks_room && lasts(best->hold_s, look_s)) return best;
   }
   return best;
 }

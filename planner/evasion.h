@@ -4,14 +4,15 @@
 #include <optional>
 
 #include "planner/attempt.h"
+#include "planner/schedule.h"
 
 namespace tern {
 
 /// Searches for a stop around the vehicle; the outcome of the candidate is Evade.
 ///
-/// | phase   | directions | distances                                                     | best stop                 |
+/// | aim     | directions | distances                                                     | best stop                 |
 /// |---------|------------|---------------------------------------------------------------|---------------------------|
-/// | Evasion | 26         | kStopShares of r, kStopWidths of vehicle and mover            | stays clear longest       |
+/// | Stop    | 26         | kStopShares of r, kStopWidths of vehicle and mover            | stays clear longest       |
 /// | Room    | 14         | kStopShares of r                                              | of the stops that hold,   |
 /// |         |            |                                                               | farthest from every box   |
 ///
@@ -19,10 +20,12 @@ namespace tern {
 /// obstacles' boxes sorts the stops: longest clear first, then the slower pace, then the soonest. The first kMaxStops
 /// are searched; usually the first succeeds. The hold of each is tested as far as predictions reach.
 ///
-/// In the phase Evasion the first stop that stays clear as far as predictions reach ends the loop. The loop also ends
+/// For the aim Stop the first stop that stays clear as far as predictions reach ends the loop. The loop also ends
 /// with the budget.
 /// @param course  for the estimated arrivals
+/// @param trial   its aim, phase and effort. @pre its aim is Room or Stop
 /// @return the best stop, or nullopt if the checker passed none
-std::optional<Candidate> find_evasion(const Surroundings& near, const Course& course, Phase phase, PlanTools& tools);
+std::optional<Candidate> find_evasion(const Surroundings& near, const Course& course, const Trial& trial,
+                                      PlanTools& tools);
 
 }  // namespace tern

@@ -36,12 +36,12 @@ bool stays_within(const std::vector<PowerCubic>& pieces, const Box& room) {
 
 }  // namespace
 
-Fallback check_committed(const Surroundings& near, bool has_reached_goal, PlanTools& tools) {
+std::optional<Candidate> check_committed(const Surroundings& near, PlanTools& tools) {
   const HorizonRequest& request = near.request;
   std::vector<double>& times = tools.memory.times;
   const std::vector<PowerCubic> pieces = remaining_pieces(request, times);
   const double moving_s = times.back();
-  if (moving_s > near.look.followed_s) return {};
+  if (moving_s > near.look.followed_s) return std::nullopt;
   const bool rests = pieces.empty();
   const double look_s = rests ? near.hold.cap_of_stop(0.0) : near.hold.cap(moving_s);
   append_hold(times, kHoldStep, std::min(look_s, near.look.followed_s - moving_s));
@@ -50,10 +50,10 @@ Fallback check_committed(const Surroundings& near, bool has_reached_goal, PlanTo
   CheckReport report = check_separation(pieces, swept);
   tools.log.statistics.pairs += report.pairs;
   tools.log.statistics.count(swept);
-  if (!report.ok() || !stays_within(pieces, near.free_side)) return {};
+  if (!report.ok() || !stays_within(pieces, near.free_side)) return std::nullopt;
   const Vec3 end = request.committed.control_points.rightCols<1>();
   const ClearTime clear = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
-  if (rests && clear.seconds <= 0.0) return {};
+  if (rests && clear.seconds <= 0.0) return std::nullopt;
   Candidate c;
   c.outcome = PlanOutcome::KeepCommitted;
   c.assurance = near.assurance;
@@ -63,8 +63,8 @@ Fallback check_committed(const Surroundings& near, bool has_reached_goal, PlanTo
   c.hold_s = std::min(clear.seconds, near.hold.cap(moving_s));
   c.holds = lasts(c.hold_s, near.hold.required(moving_s));
   c.clear_s = moving_s + clear.seconds;
-  const bool is_hit = clear.blocker != nullptr && clear.blocker->is_declared_or_static();
-  return {std::move(c), has_reached_goal && is_hit};
+  c.meets_declared = clear.blocker != nullptr && clear.blocker->is_declared_or_static();
+  return c;
 }
 
 }  // namespace tern

@@ -17,12 +17,13 @@ namespace tern {
 /// A request that is no larger than earlier ones allocates only its results, hulls and Ipopt's memory: see
 /// tests/planner/allocation_test.cpp.
 struct PlanWorkspace {
-  std::vector<PlanningObstacle> obstacles;  ///< obstacles in reach of the request
-  std::vector<std::int32_t> found;          ///< results of an index query
-  std::vector<double> times;                ///< interval ends of a horizon, s after t_s
-  SweptObstacles committed;                 ///< along the committed trajectory
-  SweptObstacles horizon;                   ///< of the current duration
-  SweptObstacles evasion, forecast;         ///< of the current stop; of the forecast for all stops
+  std::vector<PlanningObstacle> obstacles;          ///< obstacles in reach of the request
+  std::vector<PlanningObstacle> reduced_obstacles;  ///< the same at a reduced assurance
+  std::vector<std::int32_t> found;                  ///< results of an index query
+  std::vector<double> times;                        ///< interval ends of a horizon, s after t_s
+  SweptObstacles committed;                         ///< along the committed trajectory
+  SweptObstacles horizon;                           ///< of the current duration
+  SweptObstacles evasion, forecast;                 ///< of the current stop; of the forecast for all stops
   SearchMemory search;
   std::vector<CertificatePlane> certificates;  ///< planes near a trajectory
   std::vector<PlaneConstraint> planes;         ///< the same as constraints of the solver

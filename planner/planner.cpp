@@ -11,7 +11,8 @@
 #include "planner/incumbent.h"
 #include "planner/plan_workspace.h"
 #include "planner/problem/tuning.h"
-#include "planner/reduced_assurance.h"
+#include "planner/schedule.h"
+#include "planner/stop_rule.h"
 
 namespace tern {
 namespace {
@@ -42,48 +43,42 @@ bool is_usable(const PlanningWorld& world, const HorizonRequest& request, const 
   return (request.header.utime - world.predictions->set.made_at).seconds() <= config.stale_after_s;
 }
 
-/// Returns whether the vehicle is at rest at the goal, or at rest and told to hold or stop. It then only has to stay
-/// clear.
-bool has_reached_goal(const HorizonRequest& request, const Goal& goal, const PlannerConfig& config) {
+/// Returns whether the vehicle is at rest at the goal, or at rest and told to hold or stop.
+bool has_arrived(const HorizonRequest& request, const Goal& goal, const PlannerConfig& config) {
   if (!is_at_rest(request)) return false;
   return goal.mode != GoalMode::Go || (request.start.p - goal.position).norm() <= config.goal_tolerance_m;
 }
 
-/// Returns the path around static obstacles; nullopt if there is none, empty if the goal is to hold or stop.
-std::optional<std::vector<Vec3>> path_to_goal(const GoalProducts& goal, const Vec3& from) {
-  if (goal.goal.mode != GoalMode::Go) return std::vector<Vec3>{};
-  return goal.field->path_from(from);
-}
-
-/// Tries smaller and smaller steps until a candidate makes progress.
-/// @param course_at  returns the course along the path with a local goal at a radius
-/// @param course     changed to the last course
-/// @param reason     the reason if there is no plan so far
-/// @return the reason if there is no plan
-PlanReason try_smaller_steps(const Surroundings& near, const auto& course_at, Course& course, PlanReason reason,
-                             Incumbent& incumbent, PlanTools& tools) {
-  for (int k = 0; k < kSmallerSteps && !incumbent.makes_progress(); ++k) {
-    if (tools.budget.expired(Stage::LocalGoal)) break;
-    const double step = std::min(course.local.radius, (course.local.goal - near.request.start.p).norm());
-    course = course_to_local_goal(course_at(step / kSmallerStep));
-    incumbent.set_course(course);
-    reason = try_durations(near, course, Phase::Durations, near.config.search, incumbent, tools);
+/// The path around static obstacles, and the courses along it.
+class Route {
+ public:
+  Route(const GoalProducts& goal, const Surroundings& near) : goal_(goal), near_(near) {
+    if (goal.goal.mode == GoalMode::Go) path_ = goal.field->path_from(near.request.start.p);
   }
-  return reason;
-}
 
-bool needs_evasion(const Incumbent& incumbent, const Fallback& fallback) {
-  if (incumbent.best() && incumbent.best()->holds) return false;
-  return fallback.is_hit_at_rest || !(incumbent.committed() && incumbent.committed()->holds);
-}
+  [[nodiscard]] bool has_path() const { return path_.has_value(); }
+  [[nodiscard]] bool is_blocked() const { return !path_ && goal_.goal.mode == GoalMode::Go; }
+  /// Returns the task of a vehicle that has not arrived.
+  [[nodiscard]] Task task() const {
+    if (is_blocked()) return Task::Blocked;
+    return path_ ? Task::Fly : Task::Brake;
+  }
+  [[nodiscard]] Course course() const {
+    return has_path() ? along(kLocalGoalShare * near_.config.sphere_radius_m) : course_in_place(near_);
+  }
+  /// Returns the course straight to a local goal that is nearer by kSmallerStep. @pre has_path()
+  [[nodiscard]] Course nearer(const Course& course) const {
+    const double step = std::min(course.local.radius, (course.local.goal - near_.request.start.p).norm());
+    return course_to_local_goal(along(step / kSmallerStep));
+  }
 
-/// Replaces the best candidate by an evasion, if that stays clear longer than the best and the committed trajectory.
-void evade(const Surroundings& near, const Course& course, Incumbent& incumbent, PlanTools& tools) {
-  auto found = find_evasion(near, course, Phase::Evasion, tools);
-  const double best_s = incumbent.best() ? incumbent.best()->clear_s : 0.0;
-  const double committed_s = incumbent.committed() ? incumbent.committed()->clear_s : 0.0;
-  if (found && found->clear_s > std::max(best_s, committed_s)) incumbent.replace_best(std::move(found));
-}
+ private:
+  [[nodiscard]] Course along(double radius) const { return course_along(*path_, goal_.field->cost(), radius, near_); }
+
+  const GoalProducts& goal_;
+  const Surroundings& near_;
+  std::optional<std::vector<Vec3>> path_;  ///< nullopt if there is none, or the goal is to hold or stop
+};
 
 }  // namespace
 
@@ -99,35 +94,41 @@ PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const P
     blank.reason = PlanReason::StaleWorld;
     return {std::move(blank), {}};
   }
-  Surroundings near = surroundings(request, world, config, workspace);
+  const Surroundings near = surroundings(request, world, config, workspace);
   blank.relaxed = near.start.relaxed;
-  const bool has_arrived = has_reached_goal(request, world.goal->goal, config);
-  const Fallback fallback = check_committed(near, has_arrived, tools);
-  Incumbent incumbent(near, std::move(blank), fallback.committed, world.predictions->set.confidence, tools);
-  if (has_arrived && !needs_evasion(incumbent, fallback)) {
-    return {incumbent.committed_plan(PlanReason::AtGoal), log.statistics};
+  Incumbent incumbent(near, std::move(blank), check_committed(near, tools), tools);
+  const bool stays = has_arrived(request, world.goal->goal, config);
+  if (stays && is_good_enough(incumbent, {Aim::Stop}, Task::Stay, near)) {
+    return {incumbent.answer(PlanReason::AtGoal), log.statistics};
   }
   log.enter(Stage::LocalGoal);
-  const auto path = path_to_goal(*world.goal, request.start.p);
-  const bool flies_to_goal = path && !path->empty();
-  const auto course_at = [&](double radius) { return course_along(*path, world.goal->field->cost(), radius, near); };
-  Course course = flies_to_goal ? course_at(kLocalGoalShare * config.sphere_radius_m) : course_in_place(near);
-  if (flies_to_goal) incumbent.set_course(course);
-  const bool is_among_estimates = flies_to_goal && !has_arrived && !near.hold.none_estimated;
-  if (near.start.relaxed && !is_among_estimates) incumbent.replace_best(find_evasion(near, course, Phase::Room, tools));
-  const bool has_found_room = incumbent.best().has_value();
-  PlanReason reason = path ? PlanReason::None : PlanReason::GoalBlocked;
-  if (path && !has_arrived && !has_found_room && !(is_among_estimates && near.start.relaxed))
-    reason = try_durations(near, course, Phase::Durations, config.search, incumbent, tools);
-  if (is_among_estimates) {
-    if (near.start.relaxed) incumbent.replace_committed(std::nullopt, course);
-    if (!is_settled(near, course, incumbent)) reason = plan_with_reduced_assurance(course, near, incumbent, tools);
-    return {incumbent.choose(incumbent.best() ? PlanReason::None : reason), log.statistics};
+  const Route route(*world.goal, near);
+  Course course = route.course();
+  if (route.has_path()) incumbent.set_course(course);
+  const Task task = stays ? Task::Stay : route.task();
+  if (is_among_estimates(task, near) && near.start.relaxed) incumbent.replace_committed(std::nullopt, course);
+  PlanReason reason = route.is_blocked() ? PlanReason::GoalBlocked : PlanReason::None;
+  for (const Trial& trial : schedule(task, near)) {
+    if (is_good_enough(incumbent, trial, task, near)) continue;
+    if (trial.is_first_reduced) reason = PlanReason::Infeasible;
+    const Surroundings here = at_assurance(trial.assurance, near, workspace);
+    if (trial.needs_clear_start && here.start.relaxed) continue;
+    if (trial.certifies_committed && !incumbent.committed()) {
+      incumbent.replace_committed(check_committed(here, tools), course);
+    }
+    if (waits(incumbent, trial, near)) break;
+    switch (trial.aim) {
+      case Aim::Room:
+      case Aim::Stop: incumbent.offer_stop(find_evasion(here, course, trial, tools), trial.aim); break;
+      case Aim::Step:
+        if (budget.expired(Stage::LocalGoal)) break;
+        course = route.nearer(course);
+        incumbent.set_course(course);
+        [[fallthrough]];
+      case Aim::Goal: reason = try_durations(here, course, trial, incumbent, tools); break;
+    }
   }
-  if (flies_to_goal && !has_arrived && !has_found_room && is_at_rest(request))
-    reason = try_smaller_steps(near, course_at, course, reason, incumbent, tools);
-  if (needs_evasion(incumbent, fallback)) evade(near, course, incumbent, tools);
-  return {incumbent.choose(reason), log.statistics};
+  return {incumbent.answer(reason), log.statistics};
 }
 
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,

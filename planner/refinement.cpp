@@ -7,7 +7,7 @@
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/ipopt_solver.h"
 #include "planner/plan_workspace.h"
-#include "planner/problem/tuning.h"
+#include "planner/preference.h"
 
 namespace tern {
 namespace {
@@ -128,21 +128,11 @@ std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf
   return second ? second : first;
 }
 
-/// Returns the decrease of the cost-to-go from start to end, m.
-double progress_of(const Attempt& attempt, const Candidate& candidate) {
-  const CostToGo& cost_to_go = attempt.course.cost_to_go;
-  return cost_to_go.from(attempt.problem.start.p) - cost_to_go.from(candidate.trajectory.control_points.rightCols<1>());
-}
-
 }  // namespace
 
 Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools) {
   auto smooth = optimized(attempt, leaf, swept, tools);
-  if (!smooth || (leaf.holds && !smooth->holds)) return leaf;
-  const double progress = progress_of(attempt, leaf);
-  const bool in_a_moment = attempt.problem.interval < kShortInterval;
-  if (in_a_moment && progress > 0.0 && progress_of(attempt, *smooth) < kMinProgressKept * progress) return leaf;
-  return smooth->arrival_s <= leaf.arrival_s + kMaxArrivalLoss ? std::move(*smooth) : leaf;
+  return smooth && replaces_leaf(*smooth, leaf, attempt) ? std::move(*smooth) : std::move(leaf);
 }
 
 TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf) {

@@ -10,9 +10,7 @@ namespace tern {
 
 /// Optimizes a leaf by the configured method, within the budget's stage Optimization.
 ///
-/// The optimized trajectory is kept if the checker passes it, it holds if the leaf holds, and it arrives at most
-/// kMaxArrivalLoss later. For Δt < kShortInterval arrivals say little; there it must also keep kMinProgressKept of the
-/// leaf's progress.
+/// The optimized trajectory is kept if the checker passes it and it replaces_leaf() (preference.h).
 /// @return the optimized trajectory, or the leaf
 Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools);
 

@@ -48,6 +48,7 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
           memory.obstacles,
           committed,
           {},
+          world.predictions->set.confidence,
           free_side,
           centre_box(request.flight_box, request.body).intersection(free_side),
           start,
@@ -58,11 +59,27 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
           semantics_in_reach(request, world.map->fields, config)};
 }
 
-void reduce_assurance(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near) {
-  near.assurance = assurance;
-  apply_assurance(assurance, near.request.t_s, memory.obstacles);
-  near.start = clear_start(memory.obstacles, near.request.body, near.request.start.p, near.request.t_s);
-  near.hold = hold_demand(near.request, near.config, memory.obstacles, near.look.horizon_s);
+Surroundings at_assurance(const Assurance& assurance, const Surroundings& near, PlanWorkspace& memory) {
+  if (is_full(assurance)) return near;
+  const HorizonRequest& request = near.request;
+  std::vector<PlanningObstacle>& obstacles = memory.reduced_obstacles;
+  obstacles = near.obstacles;
+  apply_assurance(assurance, request.t_s, obstacles);
+  const StartClearance start = clear_start(obstacles, request.body, request.start.p, request.t_s);
+  return {request,
+          near.config,
+          obstacles,
+          near.committed,
+          assurance,
+          near.set_confidence,
+          near.free_side,
+          near.room,
+          start,
+          near.look,
+          hold_demand(request, near.config, obstacles, near.look.horizon_s),
+          near.plan_limits,
+          near.pace_limits,
+          near.fields};
 }
 
 HorizonProblem horizon_problem(const Surroundings& near, Duration interval) {

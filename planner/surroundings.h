@@ -19,11 +19,13 @@ struct PlanWorkspace;
 struct Surroundings {
   const HorizonRequest& request;
   const PlannerConfig& config;
-  const std::vector<PlanningObstacle>& obstacles;  ///< in reach; their α is reduced if the start is relaxed
-  Box committed;                                   ///< committed_box()
-  Assurance assurance;                             ///< the share of α that is applied
-  Box free_side;  ///< of the centre, beyond each face that the start touches (leave_touched)
-  Box room;       ///< of the centre: the flight box and free_side
+  /// In reach, with the α of `assurance`, which is smaller if the start is relaxed.
+  const std::vector<PlanningObstacle>& obstacles;
+  Box committed;                ///< committed_box()
+  Assurance assurance;          ///< the share of α that is applied
+  double set_confidence = 0.0;  ///< of the prediction set, [0, 1]
+  Box free_side;                ///< of the centre, beyond each face that the start touches (leave_touched)
+  Box room;                     ///< of the centre: the flight box and free_side
   StartClearance start;
   LookAhead look;  ///< no plan lasts beyond look.followed_until
   HoldDemand hold;
@@ -40,12 +42,15 @@ double time_at_rest_s(const HorizonRequest& request);
 bool is_stationary(const HorizonRequest& request);
 
 /// Returns the surroundings at full assurance. @pre the world has predictions and a map
-/// @param memory  keeps the obstacles until the next call
+/// @param memory  keeps the obstacles until the next call of this function
 Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
                           PlanWorkspace& memory);
 
-/// Changes `near` to this assurance: α of the obstacles in `memory`, the start's clearance, and the holds.
-void reduce_assurance(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near);
+/// Returns the surroundings at this assurance: α of the obstacles, the clearance of the start, and the holds are made
+/// anew. `near` stays as it is.
+/// @param near    at full assurance
+/// @param memory  keeps the obstacles until the next call with a reduced assurance
+Surroundings at_assurance(const Assurance& assurance, const Surroundings& near, PlanWorkspace& memory);
 
 /// Returns the problem of J intervals of this Δt.
 HorizonProblem horizon_problem(const Surroundings& near, Duration interval);

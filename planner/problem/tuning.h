@@ -73,7 +73,7 @@ inline constexpr double kReturnShares[] = {0.25, 0.5, 0.75, 1.0};
 inline constexpr int kTightenPasses = 3;
 inline constexpr int kPullHalvings = 6;
 
-// ---- Comparing trajectories (course.h, refinement.h, incumbent.h, durations.cpp)
+// ---- Comparing candidates (course.h, preference.h, stop_rule.h)
 
 /// How long a trajectory is assumed to be flown before the next plan: max(min_s, share · Course::step_s). The share
 /// matters where a step takes minutes.
@@ -98,7 +98,7 @@ inline constexpr double kMinApproach = 1e-6;
 /// Once a candidate that holds ends this near to the local goal, no longer duration is tried, m.
 inline constexpr double kAtLocalGoal = 1.0;
 
-// ---- Reduced assurance (assurance.h, reduced_assurance.h)
+// ---- Reduced assurance (assurance.h, schedule.h, stop_rule.h)
 
 /// How long α at the full level grows, in side-step times.
 inline constexpr double kGrowthTimes[] = {2.0, 1.0};

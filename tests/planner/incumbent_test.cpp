@@ -22,7 +22,7 @@ TEST(Incumbent, EvaluatesTheWholeCostAgainForANewCourse) {
   PlanLog log(nullptr);
   Budget budget = Budget::unlimited();
   PlanTools tools{budget, workspace, log};
-  Incumbent incumbent(near, Plan{}, std::nullopt, 0.99, tools);
+  Incumbent incumbent(near, Plan{}, std::nullopt, tools);
   Candidate candidate;
   candidate.outcome = PlanOutcome::Optimized;
   candidate.trajectory = resting_at(Vec3(1, 0, 1), request.t_s);
@@ -32,7 +32,7 @@ TEST(Incumbent, EvaluatesTheWholeCostAgainForANewCourse) {
   Course course = course_in_place(near);
   course.local.goal = Vec3(3, 0, 1);
   incumbent.set_course(course);
-  const PlanCost cost = incumbent.choose(PlanReason::None).cost;
+  const PlanCost cost = incumbent.answer(PlanReason::None).cost;
   EXPECT_NEAR(cost.distance_to_goal, 2.0, 1e-12);
   EXPECT_NEAR(cost.total, config.optimization.weight_jerk * 3.0 + config.optimization.weight_goal * 4.0, 1e-12);
 }
