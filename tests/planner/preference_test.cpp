@@ -82,7 +82,7 @@ TEST_F(Choice, OfTwoCandidatesAtMostOneBeatsTheOther) {
     for (const Candidate& b : all) {
       EXPECT_FALSE(is_better(a, b, *near_) && is_better(b, a, *near_));
       for (const Candidate& c : all) {
-        if (is_better(a, b, *near_) && is_better(b, c, *near_)) EXPECT_TRUE(is_better(a, c, *near_));
+        EXPECT_TRUE(!is_better(a, b, *near_) || !is_better(b, c, *near_) || is_better(a, c, *near_));
       }
     }
   }
