@@ -11,8 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, kPredictionClasses> kClassNames{"declared", "unseen", "at rest", "new",
-                                                                  "young",    "grown",  "old"};
+constexpr std::array<const char*, kPredictionClasses> kClassNames = [] {
+  std::array<const char*, kPredictionClasses> names{"declared", "unseen", "at rest"};
+  std::ranges::copy(kWords<TrackAge>, names.begin() + 3);
+  return names;
+}();
 
 std::optional<PredictionClass> class_named(const std::string& name) {
   const auto found = std::ranges::find(kClassNames, name);
@@ -64,7 +67,7 @@ CoverageShare claim_share(const std::vector<Coverage>& groups, const Coverage& s
   const ClaimCount& all = sum.claims[idx(level)];
   CoverageShare share;
   share.what = kPlans;
-  share.horizon = horizon_name(kHorizons - 1);
+  share.horizon = horizon_name(kToItsEnd);
   share.made = all.made;
   share.covered = all.covered;
   share.confidence = confidence_at(sum.confidence, level);
@@ -83,7 +86,7 @@ std::string heading(const char* title) {
   std::string text = fmt::format("  {:<28}", title);
   for (std::size_t h = 0; h < kHorizons; ++h) {
     const std::string name = horizon_name(h);
-    text += fmt::format("{:<20}", std::isinf(kCoveredAhead[h]) ? name : "to " + name + " s");
+    text += fmt::format("{:<20}", h == kToItsEnd ? name : "to " + name + " s");
   }
   return text + "\n";
 }
@@ -133,8 +136,7 @@ IntervalCount interval_count(const Json& numbers) {
 const char* to_string(PredictionClass kind) { return kClassNames[idx(kind)]; }
 
 std::string horizon_name(std::size_t horizon) {
-  const double ahead_s = kCoveredAhead[horizon];
-  return std::isinf(ahead_s) ? "whole" : fmt::format("{}", ahead_s);
+  return horizon == kToItsEnd ? "whole" : fmt::format("{}", kCoverageHorizons[horizon]);
 }
 
 IntervalCount& IntervalCount::operator+=(const IntervalCount& other) {

@@ -13,28 +13,30 @@
 
 #include "campaign/statistics/grouped_share.h"
 #include "core/world/track.h"
+#include "core/world/track_class.h"
 
 namespace tern {
 
-/// The class of a prediction. It follows from what is known when the prediction is made.
+/// The class of a prediction when it is made. A receiver of PREDICTIONS can tell the age of a track in view, and
+/// whether it rests. The predictor also knows the kind of its motion (TrackClass).
 enum class PredictionClass : std::uint8_t {
   Declared = 0,  ///< declared by its owner, or static: certain
   Unseen = 1,    ///< estimated; no detection met its box in the last 0.3 s
   AtRest = 2,    ///< estimated and in view; the predicted centre stays within kRestingWay of its place for a second
-  New = 3,       ///< estimated, in view and moving; its track has been in PREDICTIONS for at most 0.1 s
-  Young = 4,     ///< the same, for at most 0.3 s
-  Grown = 5,     ///< the same, for at most 1 s
-  Old = 6,       ///< the same, for longer
+  New = 3,       ///< estimated, in view and moving; the track's age_in_predictions() is TrackAge::New
+  Young = 4,     ///< the same, TrackAge::Young
+  Grown = 5,     ///< the same, TrackAge::Grown
+  Old = 6,       ///< the same, TrackAge::Old
 };
-inline constexpr std::size_t kPredictionClasses = 7;
+inline constexpr std::size_t kPredictionClasses = 3 + kTrackAges;
+constexpr PredictionClass prediction_class(TrackAge moving) { return static_cast<PredictionClass>(3 + idx(moving)); }
 inline constexpr double kRestingWay = 0.1;  ///< m
 /// "declared", "unseen", "at rest", "new", "young", "grown", "old".
 const char* to_string(PredictionClass kind);
 
-/// A prediction interval is checked up to each of these times after it was made, s. The last one stands for its own
-/// end.
-inline constexpr std::array<double, 5> kCoveredAhead{0.25, 0.5, 1.0, 2.0, std::numeric_limits<double>::infinity()};
-inline constexpr std::size_t kHorizons = kCoveredAhead.size();
+/// A prediction interval is checked up to each of kCoverageHorizons after it was made. The last of them stands for the
+/// interval's own end, wherever that is.
+inline constexpr std::size_t kToItsEnd = kHorizons - 1;
 /// "0.25", "0.5", "1", "2", "whole".
 std::string horizon_name(std::size_t horizon);
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/world/track_class.h"
 #include "predictor/models/learnt_model.h"
 #include "predictor/models/model_bank.h"
 
@@ -13,8 +14,13 @@ namespace tern {
 
 /// The times ahead at which models are scored, s: those that the planner needs. The likelihood of the next detection is
 /// no measure of that. A walker's head sways, so it would favour models that are poor a second ahead.
-inline constexpr std::array<double, 4> kScoredAhead{0.25, 0.5, 1.0, 2.0};
-inline constexpr std::size_t kScoredHorizons = kScoredAhead.size();
+/// They are all of kCoverageHorizons but the last, which is too far ahead for models to differ in kind.
+inline constexpr std::size_t kScoredHorizons = kHorizons - 1;
+inline constexpr std::array<double, kScoredHorizons> kScoredAhead = [] {
+  std::array<double, kScoredHorizons> ahead{};
+  for (std::size_t h = 0; h < kScoredHorizons; ++h) ahead[h] = kCoverageHorizons[h];
+  return ahead;
+}();
 /// The time between two scored predictions of a track, s.
 inline constexpr double kScorePeriod = 0.25;
 /// Returns the weight of a score over the span `ahead_s`, (0, 1]. Overlapping spans have correlated scores: one score

@@ -18,12 +18,12 @@ constexpr int kHalvings = 20;
 
 std::size_t band_of(double ahead_s) {
   std::size_t band = 0;
-  while (band + 1 < kBands && ahead_s > kBandEnds[band]) ++band;
+  while (band + 1 < kBands && ahead_s > kCoverageHorizons[band]) ++band;
   return band;
 }
 
 double margin_growth(std::size_t band, double ahead_s) {
-  return (ahead_s + kMarginStart) / (kBandEnds[band] + kMarginStart);
+  return (ahead_s + kMarginStart) / (kCoverageHorizons[band] + kMarginStart);
 }
 
 Vec3 interval_half_width(const Vec3& deviation, const PerBand<double>& margins, double ahead_s) {
@@ -71,12 +71,12 @@ Calibration::Calibration(double confidence) {
 
 void Calibration::begin(SceneSpeed scene_speed) {
   scene_speed_ = scene_speed;
-  for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
+  for (std::size_t k = 0; k < kClasses; ++k) {
     for (std::size_t level = 0; level < confidence_.size(); ++level) {
       const double scale =
           (level == 0 ? 1.0 : kInitialLevel) * (1.0 - confidence_[level]) / (1.0 - kConfidenceLevels[level]);
       for (std::size_t band = 0; band < kBands; ++band) {
-        classes_[kind].log_theta[level][band] = std::log(scale * prior_level(scene_speed, kind, band, level));
+        classes_[k].log_theta[level][band] = std::log(scale * prior_level(scene_speed, k, band, level));
       }
     }
   }
@@ -87,31 +87,31 @@ double Calibration::allowed(std::size_t level, std::size_t band) const {
   return kAllowedShare[band] * (1.0 - confidence_[level]);
 }
 
-double Calibration::score_weight(std::size_t band) { return tern::score_weight(kBandEnds[band]); }
+double Calibration::score_weight(std::size_t band) { return tern::score_weight(kCoverageHorizons[band]); }
 
-double Calibration::margin(TrackClass kind, std::size_t band, double level) const {
-  const auto row = static_cast<std::size_t>(kind);
-  const NewestScores &own = classes_[row].scores[band], &pool = pools_[pool_of(kind)][band];
+double Calibration::margin(std::size_t k, std::size_t band, double theta) const {
+  const NewestScores &own = classes_[k].scores[band], &pool = pools_[kCalibratedClasses[k].pool][band];
   const double each = score_weight(band);
   const double of_pool = kPoolWeight / (kPriorWeight + each * pool.size());
-  const double allowed = level * (kPoolWeight + each * own.size());
+  const double allowed = theta * (kPoolWeight + each * own.size());
   double low = -kModelSigmas, high = kMaxMargin;
   for (int halving = 0; halving < kHalvings; ++halving) {
     const double q = 0.5 * (low + high);
     const double above =
-        of_pool * (kPriorWeight * prior_share_above(scene_speed_, row, band, q) + each * pool.count_above(q)) +
+        of_pool * (kPriorWeight * prior_share_above(scene_speed_, k, band, q) + each * pool.count_above(q)) +
         each * own.count_above(q);
     (above <= allowed ? high : low) = q;
   }
   return high;
 }
 
-PerLevel Calibration::margins(TrackClass kind, double real_share) const {
-  const Class& of = classes_[static_cast<std::size_t>(kind)];
+PerLevel Calibration::margins(TrackClass of, double real_share) const { return margins(class_index(of), real_share); }
+
+PerLevel Calibration::margins(std::size_t k, double real_share) const {
   PerLevel margins;
   for (std::size_t level = 0; level < margins.size(); ++level) {
     for (std::size_t band = 0; band < kBands; ++band) {
-      margins[level][band] = margin(kind, band, std::exp(of.log_theta[level][band]) / real_share);
+      margins[level][band] = margin(k, band, std::exp(classes_[k].log_theta[level][band]) / real_share);
     }
   }
   return margins;
@@ -121,12 +121,13 @@ void Calibration::set_scene_speed(SceneSpeed scene_speed) {
   if (scene_speed != scene_speed_) begin(scene_speed);
 }
 
-void Calibration::add(TrackClass kind, std::size_t band, float score,
+void Calibration::add(TrackClass track, std::size_t band, float score,
                       const std::array<bool, kConfidenceLevels.size()>& missed, SceneSpeed made_under) {
-  Class& of = classes_[static_cast<std::size_t>(kind)];
-  if (pool_of(kind) == kPools - 1) of.scores[band].add(score);
-  pools_[pool_of(kind)][band].add(score);
-  is_stale_[pool_of(kind)] = true;
+  const std::size_t k = class_index(track), pool = kCalibratedClasses[k].pool;
+  Class& of = classes_[k];
+  if (pool == kPoolOfOld) of.scores[band].add(score);
+  pools_[pool][band].add(score);
+  is_stale_[pool] = true;
   if (made_under != scene_speed_) return;
   for (std::size_t level = 0; level < missed.size(); ++level) {
     const double share = allowed(level, band);
@@ -137,9 +138,8 @@ void Calibration::add(TrackClass kind, std::size_t band, float score,
 }
 
 void Calibration::refresh() {
-  for (std::size_t k = 0; k < kTrackClasses; ++k) {
-    const auto kind = static_cast<TrackClass>(k);
-    if (is_stale_[pool_of(kind)]) classes_[k].margins = margins(kind, 1.0);
+  for (std::size_t k = 0; k < kClasses; ++k) {
+    if (is_stale_[kCalibratedClasses[k].pool]) classes_[k].margins = margins(k, 1.0);
   }
   is_stale_.fill(false);
 }

@@ -10,45 +10,43 @@
 
 #include "core/base/types.h"
 #include "core/world/track.h"
-#include "core/world/track_bounds.h"
+#include "core/world/track_class.h"
 #include "predictor/tracking/calibration_prior.h"
 
 namespace tern {
 
-/// The class of a track: its age, and the models that predict it best. Grown tracks are younger than kGrownAge, old
-/// tracks are not.
-enum class TrackClass {
-  New,          ///< detected once
-  Young,        ///< younger than kYoungAge: its speed is still unknown
-  SteadyGrown,  ///< predicted best by steady models (model_bank.h)
-  SteadyOld,    ///< the same, old
-  CalmGrown,    ///< predicted best by calm models
-  CalmOld,      ///< the same, old
-  LivelyGrown,  ///< predicted best by lively models
-  LivelyOld,    ///< the same, old
-  Learnt,       ///< predicted best by the learnt model (learnt_model.h), of any age
+/// The classes with margins of their own, in the order of the prior's table, and the pool of each. Classes of one pool
+/// share their scores. The three old classes of the bank's models are one pool; most flights see mostly those. Every
+/// other class is a pool of its own. A young track's motion says little about its kind, and the learnt model, whatever
+/// the age of its tracks, has its own errors.
+struct CalibratedClass {
+  TrackClass of;
+  std::size_t pool;
 };
-inline constexpr std::size_t kTrackClasses = 9;
-/// Classes of one pool share their scores. The three old classes of the bank's models are one pool; most flights see
-/// mostly those. Every other class is a pool of its own. A young track's motion says little about its kind, and the
-/// learnt model has its own errors.
-inline constexpr std::size_t kPools = 7;
-constexpr std::size_t pool_of(TrackClass kind) {
-  const auto k = static_cast<std::size_t>(kind);
-  if (kind == TrackClass::Learnt) return kPools - 2;
-  return k < 2 ? k : k % 2 == 1 ? kPools - 1 : 1 + k / 2;
+inline constexpr std::size_t kPools = 7, kPoolOfOld = 6;
+inline constexpr std::array<CalibratedClass, 9> kCalibratedClasses{{
+    {kNewTrack, 0},
+    {kYoungTrack, 1},
+    {{TrackAge::Grown, MotionKind::Steady}, 2},
+    {{TrackAge::Old, MotionKind::Steady}, kPoolOfOld},
+    {{TrackAge::Grown, MotionKind::Calm}, 3},
+    {{TrackAge::Old, MotionKind::Calm}, kPoolOfOld},
+    {{TrackAge::Grown, MotionKind::Lively}, 4},
+    {{TrackAge::Old, MotionKind::Lively}, kPoolOfOld},
+    {{TrackAge::Old, MotionKind::Learnt}, 5},
+}};
+inline constexpr std::size_t kClasses = kCalibratedClasses.size();
+/// Returns the index into kCalibratedClasses.
+/// @pre not at rest: stationary tracks have a bound of their own (rest_record.h)
+constexpr std::size_t class_index(TrackClass of) {
+  if (of.motion == MotionKind::Learnt) return kClasses - 1;
+  std::size_t k = 0;
+  while (kCalibratedClasses[k].of != of) ++k;
+  return k;
 }
-/// Returns the kind that TRACK_BOUNDS reports for a class.
-constexpr MotionKind motion_kind_of(TrackClass of) {
-  const auto k = static_cast<std::size_t>(of);
-  return static_cast<MotionKind>(k < 2 ? k : 1 + k / 2);
-}
-inline constexpr double kYoungAge = 0.3;  ///< s
-inline constexpr double kGrownAge = 1.0;  ///< s
 
-/// The ends of the bands, s after the last detection. Each band has its own margins.
-inline constexpr std::array<double, 5> kBandEnds{0.25, 0.5, 1.0, 2.0, 4.5};
-inline constexpr std::size_t kBands = kBandEnds.size();
+/// Each band ends at one of kCoverageHorizons, s after the last detection, and has its own margins.
+inline constexpr std::size_t kBands = kHorizons;
 template <typename T>
 using PerBand = std::array<T, kBands>;
 
@@ -114,22 +112,20 @@ class Calibration {
   [[nodiscard]] double allowed(std::size_t level, std::size_t band) const;
   /// Returns the number of independent scores that one score of a band is worth, (0, 1].
   [[nodiscard]] static double score_weight(std::size_t band);
-  [[nodiscard]] const PerLevel& margins(TrackClass kind) const {
-    return classes_[static_cast<std::size_t>(kind)].margins;
-  }
+  [[nodiscard]] const PerLevel& margins(TrackClass of) const { return classes_[class_index(of)].margins; }
   /// Returns the margins for tracks of which only the share `real_share` exists. A false alarm is never missed, so θ is
   /// divided by that share. O(halvings · log scores).
-  [[nodiscard]] PerLevel margins(TrackClass kind, double real_share) const;
+  [[nodiscard]] PerLevel margins(TrackClass of, double real_share) const;
   /// Returns the number of independent scores in the class's pool. Below kPriorWeight the prior outweighs them.
-  [[nodiscard]] double evidence(TrackClass kind, std::size_t band) const {
-    return score_weight(band) * pools_[pool_of(kind)][band].size();
+  [[nodiscard]] double evidence(TrackClass of, std::size_t band) const {
+    return score_weight(band) * pools_[kCalibratedClasses[class_index(of)].pool][band].size();
   }
   /// Selects the prior, from the next refresh() on. A change keeps the scores, and resets θ to that of the new prior.
   void set_scene_speed(SceneSpeed scene_speed);
   /// Adds a score. It takes effect at the next refresh().
   /// @param missed  by level: whether the interval missed by the end of the band
   /// @param made_under  the prior when the prediction was made; θ learns only under the present one
-  void add(TrackClass kind, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& missed,
+  void add(TrackClass track, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& missed,
            SceneSpeed made_under);
   [[nodiscard]] SceneSpeed scene_speed() const { return scene_speed_; }
   /// Recomputes margins() of the pools with new scores.
@@ -141,13 +137,14 @@ class Calibration {
     PerLevel log_theta, margins;
   };
   void begin(SceneSpeed scene_speed);
-  /// Returns the least q that at most the share `level` of the class's scores exceeds.
-  [[nodiscard]] double margin(TrackClass kind, std::size_t band, double level) const;
+  /// Returns the least q that at most the share θ of the class's scores exceeds. @param k  class_index()
+  [[nodiscard]] double margin(std::size_t k, std::size_t band, double theta) const;
+  [[nodiscard]] PerLevel margins(std::size_t k, double real_share) const;
 
   std::array<double, kConfidenceLevels.size()> confidence_;
   SceneSpeed scene_speed_ = SceneSpeed::Any;
   std::array<std::vector<NewestScores>, kPools> pools_;  // by band
-  std::array<Class, kTrackClasses> classes_;
+  std::array<Class, kClasses> classes_;
   std::array<bool, kPools> is_stale_;
 };
 

@@ -17,14 +17,15 @@ inline constexpr double kPriorLastProbability = 0.9975;
 /// The speed of a scene: unknown, or known to be slow (kSlowSpeed). Each has its own prior.
 enum class SceneSpeed { Any, Slow };
 inline constexpr std::size_t kSceneSpeeds = 2;
-/// A slow scene has no track as fast as this over kSpeedSpan (prediction_scorer.h), m/s. Walking people are slower,
+/// A slow scene has no track as fast as this over kSpeedSpan (speed_record.h), m/s. Walking people are slower,
 /// most flying and driving obstacles are faster. The slow prior is made of recordings that are slower on every axis, so
 /// it includes obstacles that are a little faster.
 inline constexpr double kSlowSpeed = 2.5;
 
-/// Returns the prior share of scores above q, for a class (TrackClass) and band. Linear between the quantiles.
-double prior_share_above(SceneSpeed scene_speed, std::size_t kind, std::size_t band, double q);
+/// Returns the prior share of scores above q, for a class (class_index() in calibration.h) and a band. Linear between
+/// the quantiles.
+double prior_share_above(SceneSpeed scene_speed, std::size_t k, std::size_t band, double q);
 /// Returns the prior θ (Calibration) for a level of kConfidenceLevels.
-double prior_level(SceneSpeed scene_speed, std::size_t kind, std::size_t band, std::size_t level);
+double prior_level(SceneSpeed scene_speed, std::size_t k, std::size_t band, std::size_t level);
 
 }  // namespace tern

@@ -271,7 +271,7 @@ std::int32_t Tracker::left_out() const {
   return sum;
 }
 
-double Tracker::top_speed() const { return std::max(config_.prediction.max_speed, scorer_.max_axis_speed()); }
+double Tracker::top_speed() const { return std::max(config_.prediction.max_speed, scorer_.speeds().max_axis_speed()); }
 
 std::pair<Waypoint, Vec3> Tracker::resting_at(const TrackedObject& object, const State& state, UTime from,
                                               double ahead_s) const {
@@ -324,7 +324,7 @@ const std::vector<LearntCoefficients>& Tracker::learnt_coefficients(std::size_t 
 Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs& inputs) const {
   const PredictionScorer::Assessment assessment = this->assessment(object);
   const bool is_sure = object.confirmed || object.detections > 1;
-  const PerLevel& margins = is_sure ? scorer_.calibration().margins(assessment.kind) : inputs.unsure_margins;
+  const PerLevel& margins = is_sure ? scorer_.calibration().margins(assessment.of) : inputs.unsure_margins;
   const double since_s = (inputs.from - object.last_seen).seconds();
   const bool is_unseen = since_s > kUnseenAfter;
   Forecast forecast{std::vector<Waypoint>(ends_.size()), {}};
@@ -346,8 +346,8 @@ Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs&
     }
   }
   TrackBound& bound = forecast.bound;
-  bound.kind = motion_kind_of(assessment.kind);
-  bound.evidence = scorer_.calibration().evidence(assessment.kind, band_of(since_s + ends_[bound_at_].seconds()));
+  bound.kind = assessment.of.motion;
+  bound.evidence = scorer_.calibration().evidence(assessment.of, band_of(since_s + ends_[bound_at_].seconds()));
   bound.ruled_by = bound.evidence < Calibration::kPriorWeight ? BoundRule::Prior : BoundRule::Measured;
   return forecast;
 }
@@ -364,7 +364,7 @@ std::vector<Track> Tracker::predict(UTime now, std::vector<TrackBound>* why) con
   const State& newest = newest_state();
   const UTime from = std::max(now, newest.at);
   const BankStep first = bank_step((from - newest.at).seconds());
-  PredictionInputs inputs{from, scorer_.calibration().margins(TrackClass::New, newest.existence.real_share()), {}, {}};
+  PredictionInputs inputs{from, scorer_.calibration().margins(kNewTrack, newest.existence.real_share()), {}, {}};
   for (const BankStep& step : steps_ahead_) inputs.rows.push_back(bank_output_rows(step, first));
   std::vector<Track> tracks;
   for (const TrackedObject& object : newest.objects) {

@@ -14,6 +14,8 @@
 namespace tern {
 namespace {
 
+constexpr TrackClass kCalmOld{TrackAge::Old, MotionKind::Calm}, kLivelyOld{TrackAge::Old, MotionKind::Lively};
+
 /// Oracle: the share of scores above q, counted over prior, pool and own scores.
 double above(double q, std::size_t kind, std::size_t band, const std::vector<float>& own,
              const std::vector<float>& all) {
@@ -31,7 +33,7 @@ double above(double q, std::size_t kind, std::size_t band, const std::vector<flo
 }
 
 TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
-  constexpr auto kKind = static_cast<std::size_t>(TrackClass::CalmOld);
+  constexpr std::size_t kKind = class_index(kCalmOld);
   constexpr std::size_t kBand = 1;
   for (const int scores : {0, 3, 30, 300, 3000}) {
     Rng rng(1);
@@ -41,7 +43,7 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
       const bool is_own = k % 3 == 0;
       all.push_back(static_cast<float>(rng.uniform(-1.5, 0.5)));
       if (is_own) own.push_back(all.back());
-      calibration.add(is_own ? TrackClass::CalmOld : TrackClass::LivelyOld, kBand, all.back(), {}, SceneSpeed::Any);
+      calibration.add(is_own ? kCalmOld : kLivelyOld, kBand, all.back(), {}, SceneSpeed::Any);
     }
     const auto newest = [](std::vector<float>& s, std::size_t most) {
       if (s.size() > most) s.erase(s.begin(), s.end() - static_cast<std::ptrdiff_t>(most));
@@ -49,7 +51,7 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
     newest(own, Calibration::kOwnScores);
     newest(all, Calibration::kPoolScores);
     calibration.refresh();
-    const PerLevel margins = calibration.margins(TrackClass::CalmOld);
+    const PerLevel margins = calibration.margins(kCalmOld);
     for (std::size_t level = 0; level < margins.size(); ++level) {
       // No interval missed: θ has risen with each.
       const double allowed = calibration.allowed(level, kBand);
@@ -73,10 +75,10 @@ TEST(Calibration, PredictionsMadeUnderAnotherPriorLeaveThetaAsItIs) {
     Calibration calibration(0.99);
     calibration.set_scene_speed(SceneSpeed::Slow);
     for (int k = 0; k < 1000; ++k) {
-      calibration.add(TrackClass::New, 1, static_cast<float>(rng.uniform()), {}, made_under);
+      calibration.add(kNewTrack, 1, static_cast<float>(rng.uniform()), {}, made_under);
     }
     calibration.refresh();
-    margins[made_under == SceneSpeed::Slow ? 1 : 0] = calibration.margins(TrackClass::New);
+    margins[made_under == SceneSpeed::Slow ? 1 : 0] = calibration.margins(kNewTrack);
   }
   for (std::size_t level = 1; level < kConfidenceLevels.size(); ++level) {
     EXPECT_LT(margins[1][level][1], margins[0][level][1]) << "none missed, so a smaller margin will do";
@@ -107,19 +109,17 @@ TEST(Calibration, LeavingTheSlowPriorRestoresTheMarginsOfTheOther) {
   Calibration calibration(0.99);
   calibration.set_scene_speed(SceneSpeed::Slow);
   calibration.refresh();
-  for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
-    const PerLevel &slow = calibration.margins(static_cast<TrackClass>(kind)),
-                   &any = fresh.margins(static_cast<TrackClass>(kind));
+  for (const CalibratedClass& one : kCalibratedClasses) {
+    const PerLevel &slow = calibration.margins(one.of), &any = fresh.margins(one.of);
     for (std::size_t band = 1; band < kBands; ++band)
-      EXPECT_LT(slow[0][band], any[0][band] + 0.05) << kind << ", " << band;
+      EXPECT_LT(slow[0][band], any[0][band] + 0.05) << class_index(one.of) << ", " << band;
   }
-  const auto young = TrackClass::Young;
-  EXPECT_LT(calibration.margins(young)[0][2], 0.5 * fresh.margins(young)[0][2]);
+  EXPECT_LT(calibration.margins(kYoungTrack)[0][2], 0.5 * fresh.margins(kYoungTrack)[0][2]);
   calibration.set_scene_speed(SceneSpeed::Any);
   calibration.refresh();
   for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
     for (std::size_t band = 0; band < kBands; ++band) {
-      EXPECT_NEAR(calibration.margins(young)[level][band], fresh.margins(young)[level][band], 1e-3);
+      EXPECT_NEAR(calibration.margins(kYoungTrack)[level][band], fresh.margins(kYoungTrack)[level][band], 1e-3);
     }
   }
 }
@@ -132,16 +132,16 @@ TEST(Calibration, MissesTheAllowedShareAtEachLevelForAnyDistribution) {
     constexpr int kPredictions = 8'000, kLearning = 2'000;
     std::array<std::array<int, kBands>, kLevels> missed{};
     for (int prediction = 0; prediction < kPredictions; ++prediction) {
-      const PerLevel margins = calibration.margins(TrackClass::CalmOld);
+      const PerLevel margins = calibration.margins(kCalmOld);
       std::array<bool, kLevels> out{};
       double q = 0.0;
       for (std::size_t band = 0; band < kBands; ++band) {
-        q = 0.5 * q + scale * kBandEnds[band] * rng.normal();
+        q = 0.5 * q + scale * kCoverageHorizons[band] * rng.normal();
         for (std::size_t level = 0; level < out.size(); ++level) {
           out[level] = out[level] || q > margins[level][band];
           missed[level][band] += prediction >= kLearning && out[level] ? 1 : 0;
         }
-        calibration.add(TrackClass::CalmOld, band, static_cast<float>(q), out, SceneSpeed::Any);
+        calibration.add(kCalmOld, band, static_cast<float>(q), out, SceneSpeed::Any);
       }
       calibration.refresh();
     }

@@ -32,8 +32,8 @@ double margin_of_pairs(bool exchanged) {
     tracker.update(observations_at(t, std::move(seen)));
   }
   double largest = 0.0;
-  for (const TrackClass kind : {TrackClass::SteadyOld, TrackClass::CalmOld, TrackClass::LivelyOld}) {
-    largest = std::max(largest, tracker.scorer().calibration().margins(kind)[0][band_of(1.0)]);
+  for (const MotionKind motion : {MotionKind::Steady, MotionKind::Calm, MotionKind::Lively}) {
+    largest = std::max(largest, tracker.scorer().calibration().margins({TrackAge::Old, motion})[0][band_of(1.0)]);
   }
   return largest;
 }

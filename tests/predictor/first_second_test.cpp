@@ -92,7 +92,7 @@ void count_covered(const std::vector<Track>& tracks, const std::vector<Path>& mo
 TEST(FirstSecond, NewTracksHaveNarrowMarginsInASlowSceneUntilAFastOneAppears) {
   Rng rng(5);
   Tracker tracker(TrackerConfig{});
-  const auto feared = [&] { return tracker.scorer().calibration().margins(TrackClass::New)[0][band_of(0.5)]; };
+  const auto feared = [&] { return tracker.scorer().calibration().margins(kNewTrack)[0][band_of(0.5)]; };
   const double at_first = feared();
   double among_walkers = at_first;
   for (int frame = 0; frame < static_cast<int>(kRate * 5.0); ++frame) {

@@ -307,7 +307,7 @@ Outcome follow(const std::vector<Path>& paths, bool learns, double seconds) {
       half += track.alpha[track.motion.locate(then).index].mean();
     }
     for (const TrackedObject& object : tracker.objects()) {
-      outcome.learnt += tracker.assessment(object).kind == TrackClass::Learnt ? 1 : 0;
+      outcome.learnt += tracker.assessment(object).of.motion == MotionKind::Learnt ? 1 : 0;
     }
   }
   outcome.rms = std::sqrt(squares / outcome.intervals);

@@ -15,8 +15,6 @@ namespace {
 
 /// A static track is predicted without end; it is judged for this long.
 constexpr Duration kForEver{4'500'000};
-constexpr std::array kClassAges{std::pair{0.1, PredictionClass::New}, std::pair{0.3, PredictionClass::Young},
-                                std::pair{1.0, PredictionClass::Grown}};
 
 /// One judged prediction.
 struct JudgedPrediction {
@@ -150,14 +148,15 @@ class PredictionsCheck {
                                 for (std::size_t level = 0; level < kLevels; ++level) {
                                   if ((n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance) continue;
                                   for (std::size_t h = 0; h < kHorizons; ++h) {
-                                    if (ahead_s <= kCoveredAhead[h]) prediction.covered[h][level] = false;
+                                    if (h == kToItsEnd || ahead_s <= kCoverageHorizons[h])
+                                      prediction.covered[h][level] = false;
                                   }
                                 }
                               });
     prediction.complete = seen >= prediction.until;
     for (std::size_t h = 0; h < kHorizons; ++h) {
-      const bool whole = std::isinf(kCoveredAhead[h]);
-      const UTime end = whole ? prediction.until : prediction.from + Duration::from_seconds(kCoveredAhead[h]);
+      const UTime end =
+          h == kToItsEnd ? prediction.until : prediction.from + Duration::from_seconds(kCoverageHorizons[h]);
       prediction.judged[h] = end <= prediction.until && seen >= end;
       prediction.half_m[h] = track.alpha[track.motion.locate(std::min(end, prediction.until)).index].mean();
     }
@@ -169,10 +168,7 @@ class PredictionsCheck {
     if (prediction.certain) return PredictionClass::Declared;
     if (!in_view) return PredictionClass::Unseen;
     if (is_at_rest(track, prediction)) return PredictionClass::AtRest;
-    for (const auto& [until_s, kind] : kClassAges) {
-      if (age_s <= until_s) return kind;
-    }
-    return PredictionClass::Old;
+    return prediction_class(age_in_predictions(age_s));
   }
 
   [[nodiscard]] static bool is_at_rest(const Track& track, const JudgedPrediction& prediction) {

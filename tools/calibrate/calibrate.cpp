@@ -26,7 +26,7 @@ Source source_of(const std::string& name, double weight, const std::vector<Score
                  const std::vector<ScoredPrediction>& without_learning) {
   Source source{name, weight, without_learning};
   std::ranges::copy_if(learning, std::back_inserter(source.scored),
-                       [](const ScoredPrediction& one) { return one.kind == TrackClass::Learnt; });
+                       [](const ScoredPrediction& one) { return one.of.motion == MotionKind::Learnt; });
   return source;
 }
 

@@ -14,8 +14,6 @@ namespace {
 constexpr double kCheckPeriod = 0.02;  // s, between the times at which an interval is checked
 constexpr double kTolerance = 1e-6;    // m
 constexpr int kDraws = 1000;
-constexpr std::array<const char*, kTrackClasses> kClassNames{
-    "new", "young", "steady-grown", "steady-old", "calm-grown", "calm-old", "lively-grown", "lively-old", "learnt"};
 constexpr std::array<std::pair<double, const char*>, 5> kAges{std::pair{0.1, "age to 0.1 s"},
                                                               {0.3, "age to 0.3 s"},
                                                               {0.5, "age to 0.5 s"},
@@ -23,6 +21,13 @@ constexpr std::array<std::pair<double, const char*>, 5> kAges{std::pair{0.1, "ag
                                                               {2.0, "age to 2 s"}};
 constexpr std::array<std::pair<double, const char*>, 4> kLearning{
     std::pair{1.0, "flight to 1 s"}, {3.0, "flight to 3 s"}, {10.0, "flight to 10 s"}, {1e9, "flight above 10 s"}};
+
+// "new", "young", "learnt", else with the age: "steady-old".
+std::string class_name(TrackClass of) {
+  const std::string name = to_string(of.motion);
+  const bool has_margins_by_age = of.age >= TrackAge::Grown && of.motion != MotionKind::Learnt;
+  return has_margins_by_age ? name + "-" + to_string(of.age) : name;
+}
 
 using Key = std::tuple<std::string, double, std::int64_t>;  // cell, time ahead, track
 
@@ -48,7 +53,7 @@ class CoverageCounter {
       }
       result.cells.back().tracks.push_back(intervals);
     }
-    if (tracker_.scorer().max_axis_speed() < kSlowSpeed) result.scored_slow = result.scored;
+    if (tracker_.scorer().speeds().max_axis_speed() < kSlowSpeed) result.scored_slow = result.scored;
     return result;
   }
 
@@ -79,7 +84,7 @@ class CoverageCounter {
     std::array<bool, kLevels> covered;
     covered.fill(true);
     std::size_t h = 0;
-    for (int k = 0; h < kCoveredAhead.size(); ++k) {
+    for (int k = 0; h < kCoverageHorizons.size(); ++k) {
       const UTime at = track.motion.start + Duration::from_seconds(k * kCheckPeriod);
       const std::optional<Vec3> centre = truth.at(at);
       if (!centre || at > track.motion.end()) return;  // the later truth is unknown
@@ -92,8 +97,8 @@ class CoverageCounter {
         covered[l] = covered[l] && (needed - alpha).maxCoeff() <= kTolerance;
         half[l] = alpha.mean();
       }
-      if ((k + 1) * kCheckPeriod <= kCoveredAhead[h] + 1e-9) continue;
-      count(track, object, kCoveredAhead[h++], covered, half);
+      if ((k + 1) * kCheckPeriod <= kCoverageHorizons[h] + 1e-9) continue;
+      count(track, object, kCoverageHorizons[h++], covered, half);
     }
   }
 
@@ -116,9 +121,8 @@ class CoverageCounter {
     };
     const auto age = until(kAges, (object.last_seen - object.born).seconds());
     const auto learning = until(kLearning, (track.motion.start - recording_.observations.front().set.at).seconds());
-    const auto kind = idx(tracker_.assessment(object).kind);
-    return {"all moving", std::string("class ") + kClassNames[kind], age == kAges.end() ? "age above 2 s" : age->second,
-            learning->second};
+    return {"all moving", "class " + class_name(tracker_.assessment(object).of),
+            age == kAges.end() ? "age above 2 s" : age->second, learning->second};
   }
 
   const Recording& recording_;

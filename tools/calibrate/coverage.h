@@ -11,10 +11,8 @@
 
 namespace tern::calibrate {
 
-/// An interval covers up to one of these times, s, if the true box stayed inside the predicted one until then.
-inline constexpr std::array<double, 5> kCoveredAhead{0.25, 0.5, 1.0, 2.0, 4.5};
-
-/// The intervals of one track in one cell: the unit that the bootstrap draws. Arrays are by level of confidence.
+/// The intervals of one track in one cell: the unit that the bootstrap draws. An interval covers up to one of
+/// kCoverageHorizons if the true box stayed inside the predicted one until then. Arrays are by level of confidence.
 struct TrackIntervals {
   int intervals = 0;
   std::array<int, kLevels> covered{};

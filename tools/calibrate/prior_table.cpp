@@ -41,23 +41,17 @@ struct BandScores {
   std::vector<std::pair<double, Prediction*>> scores;  // ascending
 };
 
-// The age of a class: 0 new, 1 young, 2 grown, 3 old.
-std::size_t age_of(TrackClass kind) {
-  const auto k = idx(kind);
-  if (kind == TrackClass::Learnt) return 3;
-  return k < 2 ? k : 2 + k % 2;
-}
-
-std::vector<SourcePredictions> of_class(const std::vector<Source>& sources, TrackClass kind) {
+std::vector<SourcePredictions> of_class(const std::vector<Source>& sources, std::size_t k) {
+  const TrackAge age = kCalibratedClasses[k].of.age;
   std::vector<SourcePredictions> all;
   for (const Source& source : sources) {
     SourcePredictions own{source.weight, {}};
     double of_age = 0.0;
     for (const ScoredPrediction& scored : source.scored) {
-      if (scored.kind == kind) own.predictions.push_back({&scored});
+      if (class_index(scored.of) == k) own.predictions.push_back({&scored});
       // Predictions of the learnt model come from a second tracker on the same recording.
-      const bool is_of_bank = scored.kind != TrackClass::Learnt;
-      of_age += is_of_bank && age_of(scored.kind) == age_of(kind) ? 1.0 : 0.0;
+      const bool is_of_bank = scored.of.motion != MotionKind::Learnt;
+      of_age += is_of_bank && scored.of.age == age ? 1.0 : 0.0;
     }
     if (own.predictions.size() < kMinPredictions) continue;
     own.weight *= std::min(1.0, kMotions * static_cast<double>(own.predictions.size()) / of_age);
@@ -136,7 +130,7 @@ Rows rows_of(std::vector<SourcePredictions>& all) {
     if (sources.empty()) {
       throw std::runtime_error(fmt::format(
           "no source has {} predictions of each class, evaluated to {} s: more logs are needed, or --made-up 100",
-          kMinPredictions, kBandEnds[band]));
+          kMinPredictions, kCoverageHorizons[band]));
     }
     Row& row = rows[band];
     for (const BandScores& source : sources) row.predictions += source.scores.size();
@@ -168,12 +162,12 @@ Rows narrower(const Rows& any, const Rows& slow) {
   return rows;
 }
 
-std::string text_of(std::size_t kind, const Rows& rows) {
-  std::string text = fmt::format("    // class {}\n", kind);
+std::string text_of(std::size_t k, const Rows& rows) {
+  std::string text = fmt::format("    // class {}\n", k);
   for (std::size_t band = 0; band < kBands; ++band) {
     const auto& [levels, quantiles, predictions] = rows[band];
     text += fmt::format("    {{{{{:.4f}}}, {{{:.3f}}}}},  // to {} s, of {} predictions\n", fmt::join(levels, ", "),
-                        fmt::join(quantiles, ", "), kBandEnds[band], predictions);
+                        fmt::join(quantiles, ", "), kCoverageHorizons[band], predictions);
   }
   return text;
 }
@@ -182,14 +176,13 @@ std::string text_of(std::size_t kind, const Rows& rows) {
 
 std::string prior_table(const std::vector<Source>& sources, const std::vector<Source>& slow_sources) {
   std::string any = "    // scenes of any speed\n", slow = "    // slow scenes\n";
-  for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
-    std::vector<SourcePredictions> all = of_class(sources, static_cast<TrackClass>(kind)),
-                                   among_slow = of_class(slow_sources, static_cast<TrackClass>(kind));
+  for (std::size_t k = 0; k < kClasses; ++k) {
+    std::vector<SourcePredictions> all = of_class(sources, k), among_slow = of_class(slow_sources, k);
     const auto is_known = [](const SourcePredictions& source) { return source.weight >= kMinKnownWeight; };
     const bool is_slow_known = std::any_of(among_slow.begin(), among_slow.end(), is_known);
     const Rows rows = rows_of(all);
-    any += text_of(kind, rows);
-    slow += text_of(kind, is_slow_known ? narrower(rows, rows_of(among_slow)) : rows);
+    any += text_of(k, rows);
+    slow += text_of(k, is_slow_known ? narrower(rows, rows_of(among_slow)) : rows);
   }
   return any + slow;
 }
