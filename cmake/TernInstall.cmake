@@ -22,6 +22,7 @@ foreach(folder scenarios launch_scripts lcmtypes)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION share/tern COMPONENT programs USE_SOURCE_PERMISSIONS
           PATTERN CMakeLists.txt EXCLUDE PATTERN build.sh EXCLUDE PATTERN test.sh EXCLUDE PATTERN install.sh EXCLUDE
           PATTERN record_golden.sh EXCLUDE PATTERN results.sh EXCLUDE PATTERN view_page.sh EXCLUDE
+          PATTERN python.sh EXCLUDE
           PATTERN campaign_slurm.sh EXCLUDE PATTERN packages*.txt EXCLUDE)
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/python/tern_msgs DESTINATION share/tern/python COMPONENT programs OPTIONAL)

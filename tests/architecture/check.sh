@@ -46,7 +46,7 @@ only_in '^tern_msgs/' '^(messages|tests|benchmarks)/' 'generated types are for m
 only_in '^yaml-cpp/' '^(runtime|tests)/|/app/' 'YAML is for runtime and apps'
 only_in '^CLI/' '^runtime/command_line\.cpp$' 'CLI11 stands behind runtime/command_line.h'
 only_in '^spdlog/' '^runtime/log\.cpp$' 'spdlog stands behind runtime/log.h'
-only_in '^runtime/log\.h$' '^(runtime|tests)/|/app/' 'a library does not log'
+only_in '^runtime/log\.h$' '^(runtime|tests)/|/app/|^python/module\.cpp$' 'a library does not log'
 only_in '^(chrono|sys/time.h)$' '^(runtime|tests|benchmarks|tools|campaign)/|/app/' 'a library gets times as arguments'
 
 # Solvers stay behind one adapter each.
@@ -71,6 +71,8 @@ never '^runtime/' '^(planner|predictor|executor|simulator|mavlink|semantic_mappe
   'runtime stands on core and messages'
 
 never '^(planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
+never '^(core|messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools)/' \
+  '^python/' 'the Python package stands on all others'
 
 # Who starts the others knows how to sum up for a monitor that cannot, no messages and no other process.
 never '^launcher/' '^(messages|flight_log|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|campaign|viewer|tools|tests)/' \
@@ -93,7 +95,7 @@ done
 
 # A node stands on its own process's libraries; only tests, campaign and tools may host several nodes.
 while IFS=$'\t' read -r file header; do
-  case $file in tests/* | campaign/* | tools/* | benchmarks/*) continue ;; esac
+  case $file in tests/* | campaign/* | tools/* | benchmarks/* | python/*) continue ;; esac
   [[ ${file%%/app/*} == "${header%%/app/*}" ]] || breach "$file includes $header: another process's node"
 done < <(awk -F'\t' '$2 ~ /\/app\//' <<<"$includes")
 
