@@ -57,14 +57,17 @@ one_folder Beast '^boost/beast'
 only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
-ours='^(core|messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/'
-never '^core/base/' "^core/(geometry|splines|world)/" 'base stands on nothing'
-never '^core/geometry/' '^core/(splines|world)/' 'geometry stands on base'
-never '^core/splines/' '^core/world/' 'splines stand on base and geometry'
-never '^core/' '^(messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+ours='^(core|messages|ros_messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/'
+never '^core/base/' "^core/(geometry|splines|world|drawing)/" 'base stands on nothing'
+never '^core/geometry/' '^core/(splines|world|drawing)/' 'geometry stands on base'
+never '^core/splines/' '^core/(world|drawing)/' 'splines stand on base and geometry'
+never '^core/world/' '^core/drawing/' 'what is drawn stands on world'
+never '^core/' '^(messages|ros_messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^messages/' '^(flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^messages/' '^(ros_messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'messages stand on core'
+never '^ros_messages/' '^(messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+  'ROS messages stand on core'
 never '^flight_log/' '^(runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'the log stands on core and messages'
 never '^runtime/' '^(planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \

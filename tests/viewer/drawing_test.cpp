@@ -12,7 +12,7 @@
 #include "core/geometry/box.h"
 #include "core/world/message_limits.h"
 #include "tests/viewer/known_scene.h"
-#include "viewer/bridge/predicted_hulls.h"
+#include "core/drawing/predicted_hulls.h"
 #include "viewer/bridge/scene.h"
 #include "viewer/bridge/scene_json.h"
 #include "viewer/bridge/voxel_faces.h"

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tools/export/columns.h"
+#include "tools/export/message_json.h"
 
 namespace tern::exporting {
 namespace {
@@ -51,8 +52,9 @@ void CsvFiles::add(const LoggedMessage& message) {
   if (!tables_.contains(message.channel)) head = head_of("message,received_us", column_names(type));
   Table& messages = table(message.channel, head);
   std::string row = fmt::format("{},{}", messages.rows, message.received_us);
+  const Json fields = message_json(message.type, message.bytes);
   for (const MessageField& field : type.fields) {
-    const Json& value = message.fields.at(field.name);
+    const Json& value = fields.at(field.name);
     if (field.form != Form::List) {
       append_cells(row, value);
       continue;

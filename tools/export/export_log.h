@@ -11,6 +11,7 @@ struct ExportOptions {
   std::string log;         ///< a file, or a flight's folder with flight.lcm
   std::string csv_folder;  ///< created if missing; empty: no tables
   std::string mcap_file;   ///< empty: no MCAP file
+  std::string bag_folder;  ///< of a rosbag2 recording, created if missing; empty: none. It excludes mcap_file
   std::string suffix;      ///< of the vehicle's channels
 };
 

@@ -1,4 +1,4 @@
-// Reads all of Tern's messages in a log, of any type, as JSON.
+// Reads all of Tern's messages in a log, of any type, as bytes.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "flight_log/flight_log.h"
-#include "tools/export/message_json.h"
+#include "messages/codec.h"
 
 namespace tern::exporting {
 
@@ -15,7 +15,7 @@ struct LoggedMessage {
   std::string channel;  ///< on the wire, suffix included
   std::string type;     ///< "plan_t"
   std::int64_t received_us = 0;
-  Json fields;  ///< see message_json()
+  Bytes bytes;  ///< as encode() makes them
 };
 
 /// Registers `use` for all of Tern's channels in `log`. @param suffix  the one that `log` was made with

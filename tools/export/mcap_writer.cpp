@@ -3,6 +3,7 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 namespace tern::exporting {
@@ -10,9 +11,10 @@ namespace {
 
 constexpr std::string_view kMagic = "\x89MCAP0\r\n";
 constexpr std::string_view kCompression = "zstd";
-/// Against the default level 3, a flight's file is a quarter smaller and takes a fifth more time. Level 12 would save 1
-/// % more.
+/// Level 12 would save 0.2 % more.
 constexpr int kCompressionLevel = 9;
+/// A window of 8 MB, the largest that every decoder must have (RFC 8878 §3.1.1.1.2): it spans a chunk, and saves 6 %.
+constexpr int kWindowLog = 23;
 
 enum class Op : std::uint8_t {
   Header = 0x01,
@@ -57,8 +59,11 @@ std::uint32_t crc_of(std::string_view bytes) {
 }
 
 std::string compressed(std::string_view bytes) {
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_windowLog, kWindowLog);
   std::string packed(ZSTD_compressBound(bytes.size()), '\0');
-  const std::size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kCompressionLevel);
+  const std::size_t size = ZSTD_compress2(context.get(), packed.data(), packed.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(size) != 0) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
   packed.resize(size);
   return packed;
@@ -68,7 +73,7 @@ std::string compressed(std::string_view bytes) {
 
 McapWriter::McapWriter(const std::string& path) : path_(path), file_(path, std::ios::binary) {
   write(kMagic);
-  write(record(Op::Header, Fields{}.text("").text("tern-export")));
+  write(record(Op::Header, Fields{}.text("ros2").text("tern-export")));
 }
 
 void McapWriter::write(std::string_view bytes) {
@@ -83,20 +88,20 @@ void McapWriter::Span::take(std::uint64_t ns) {
   ++messages;
 }
 
-void McapWriter::add(const std::string& topic, const std::string& schema_name, Json (*schema)(const std::string& name),
-                     std::int64_t time_us, const Json& message) {
+void McapWriter::add(const std::string& topic, const ros::RosType& type, std::int64_t time_us, std::string_view cdr) {
   const auto [known_schema, schema_is_new] =
-      schemas_.try_emplace(schema_name, static_cast<std::uint16_t>(schemas_.size() + 1));
+      schemas_.try_emplace(type.name(), static_cast<std::uint16_t>(schemas_.size() + 1));
   if (schema_is_new) {
-    const std::string text = schema(schema_name).dump();
-    const Fields fields = Fields{}.integer(known_schema->second).text(schema_name).text("jsonschema").text(text);
+    const Fields fields =
+        Fields{}.integer(known_schema->second).text(type.name()).text("ros2msg").text(type.definition());
     chunk_.records += record(Op::Schema, fields);
     schema_records_ += record(Op::Schema, fields);
   }
-  const auto [known, is_new] = topics_.try_emplace(topic, Topic{static_cast<std::uint16_t>(topics_.size())});
+  const auto [known, is_new] =
+      topics_.try_emplace(topic, Topic{static_cast<std::uint16_t>(topics_.size()), type.name()});
   if (is_new) {
     const Fields fields =
-        Fields{}.integer(known->second.id).integer(known_schema->second).text(topic).text("json").text("");
+        Fields{}.integer(known->second.id).integer(known_schema->second).text(topic).text("cdr").text("");
     chunk_.records += record(Op::Channel, fields);
     channel_records_ += record(Op::Channel, fields);
   }
@@ -106,7 +111,7 @@ void McapWriter::add(const std::string& topic, const std::string& schema_name, J
   chunk_.index[known->second.id].emplace_back(ns, chunk_.records.size());
   Fields fields;
   fields.integer(known->second.id).integer(++known->second.messages).integer(ns).integer(ns);
-  fields.bytes += message.dump();
+  fields.bytes += cdr;
   chunk_.records += record(Op::Message, fields);
   if (chunk_.records.size() > kChunkBytes) end_chunk();
 }

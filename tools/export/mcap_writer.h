@@ -1,4 +1,4 @@
-// Writes MCAP files (https://mcap.dev/spec) with JSON messages and JSON schemas.
+// Writes MCAP files (https://mcap.dev/spec) of ROS 2 messages: profile "ros2", schemas "ros2msg", messages "cdr".
 #pragma once
 
 #include <boost/crc.hpp>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "tools/export/message_json.h"
+#include "ros_messages/description.h"
 
 namespace tern::exporting {
 
@@ -26,22 +26,9 @@ namespace tern::exporting {
 /// have checksums.
 class McapWriter {
  public:
-  /// A chunk is closed when its records exceed this size, bytes.
-  static constexpr std::size_t kChunkBytes = 4 << 20;
-
-  explicit McapWriter(const std::string& path);
-
-  /// Adds a message. The first message of a topic fixes its schema. Infinite values and NaN become null.
-  /// @param schema_name  topics with the same name share the schema
-  /// @param time_us      since the Unix epoch, ≥ 0
-  void add(const std::string& topic, const std::string& schema_name, Json (*schema)(const std::string& name),
-           std::int64_t time_us, const Json& message);
-  /// Completes the file. @return an Error if it could not be written
-  Result<void> finish();
-
- private:
   struct Topic {
     std::uint16_t id = 0;
+    std::string type;
     std::uint32_t messages = 0;
   };
   struct Span {
@@ -49,6 +36,22 @@ class McapWriter {
     std::uint64_t messages = 0;
     void take(std::uint64_t ns);
   };
+
+  /// A chunk is closed when its records exceed this size, bytes.
+  static constexpr std::size_t kChunkBytes = 8 << 20;
+
+  explicit McapWriter(const std::string& path);
+
+  /// Adds a message. The first message of a topic fixes its type.
+  /// @param time_us  since the Unix epoch, ≥ 0
+  void add(const std::string& topic, const ros::RosType& type, std::int64_t time_us, std::string_view cdr);
+  /// Completes the file. @return an Error if it could not be written
+  Result<void> finish();
+  [[nodiscard]] const std::map<std::string, Topic>& topics() const { return topics_; }
+  /// Returns the time of all messages.
+  [[nodiscard]] const Span& span() const { return span_; }
+
+ private:
   /// Index of one channel in a chunk: time, offset in the chunk's records.
   using MessageIndex = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
   struct Chunk {

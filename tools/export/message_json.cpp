@@ -6,31 +6,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "ros_messages/message_types.h"
+#include "ros_messages/wire_reader.h"
+
 namespace tern::exporting {
 namespace {
 
-constexpr std::size_t kFingerprintBytes = 8;
-
-/// Big-endian values, one after the other.
-class WireReader {
- public:
-  explicit WireReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
-
-  std::span<const std::uint8_t> take(std::size_t n) {
-    if (n > rest_.size()) throw std::out_of_range("a message ends before its fields do");
-    const auto taken = rest_.first(n);
-    rest_ = rest_.subspan(n);
-    return taken;
-  }
-  std::uint64_t unsigned_integer(std::size_t n) {
-    std::uint64_t x = 0;
-    for (const std::uint8_t byte : take(n)) x = x << 8U | byte;
-    return x;
-  }
-
- private:
-  std::span<const std::uint8_t> rest_;
-};
+using ros::MessageField;
+using ros::MessageType;
+using ros::WireReader;
 
 Json object_of(const MessageType& type, WireReader& wire);
 
@@ -47,7 +31,7 @@ Json value_of(const MessageField& field, WireReader& wire) {
   if (type == "int8_t") return static_cast<std::int8_t>(wire.unsigned_integer(1));
   if (type == "byte") return static_cast<std::uint8_t>(wire.unsigned_integer(1));
   if (type == "boolean") return wire.unsigned_integer(1) != 0;
-  return object_of(message_types().at(type), wire);
+  return object_of(ros::message_types().at(type), wire);
 }
 
 Json field_json(const MessageField& field, const Json& before, WireReader& wire) {
@@ -72,10 +56,9 @@ Json object_of(const MessageType& type, WireReader& wire) {
 }  // namespace
 
 Json message_json(std::string_view type, std::span<const std::uint8_t> bytes) {
-  const auto found = message_types().find(type);
-  if (found == message_types().end()) throw std::out_of_range("no message type " + std::string(type));
+  const auto found = ros::message_types().find(type);
+  if (found == ros::message_types().end()) throw std::out_of_range("no message type " + std::string(type));
   WireReader wire(bytes);
-  wire.take(kFingerprintBytes);
   return object_of(found->second, wire);
 }
 

@@ -6,8 +6,6 @@
 #include <span>
 #include <string_view>
 
-#include "tools/export/message_types.h"
-
 namespace tern::exporting {
 
 using Json = nlohmann::ordered_json;

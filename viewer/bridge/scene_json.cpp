@@ -1,9 +1,9 @@
 #include "viewer/bridge/scene_json.h"
 
+#include "core/drawing/plane_place.h"
+#include "core/drawing/predicted_hulls.h"
 #include "core/world/names.h"
 #include "viewer/bridge/json_writer.h"
-#include "viewer/bridge/plane_place.h"
-#include "viewer/bridge/predicted_hulls.h"
 
 namespace tern {
 namespace {

@@ -91,6 +91,7 @@ class Reader {
     expect(all.starts_with(kMagic) && all.ends_with(kMagic) && all.size() >= 16, "the magic");
     const auto records = records_of(all.substr(8, all.size() - 16), 8);
     expect(!records.empty() && records.front().op == 0x01, "a Header first");
+    expect(Cursor(records.front().body).text() == "ros2", "the profile");
     expect(records.back().op == 0x02, "a Footer last");
     for (const Record& record : records) take(record);
     check_footer(records.back());
@@ -124,8 +125,8 @@ class Reader {
     const std::uint16_t id = cursor.u16();
     expect(id != 0, "a schema's id is not 0");
     const std::string name(cursor.text());
-    expect(cursor.text() == "jsonschema", "the schema's encoding");
-    const auto schema = nlohmann::json::parse(cursor.text());
+    expect(cursor.text() == "ros2msg", "the schema's encoding");
+    const std::string schema(cursor.text());
     expect(schema_names_.try_emplace(id, name).first->second == name, "one name per schema");
     expect(file_.schemas.try_emplace(name, schema).first->second == schema, "the same schema whenever it is told");
   }
@@ -135,7 +136,7 @@ class Reader {
     const std::uint16_t id = cursor.u16();
     const std::string schema = schema_names_.at(cursor.u16());
     const std::string topic(cursor.text());
-    expect(cursor.text() == "json", "the messages' encoding");
+    expect(cursor.text() == "cdr", "the messages' encoding");
     const auto known = channels_.try_emplace(id, topic, schema).first->second;
     expect(known == std::pair(topic, schema), "the same channel whenever it is told");
   }
@@ -179,7 +180,8 @@ class Reader {
     message.sequence = cursor.u32();
     message.log_ns = cursor.u64();
     expect(cursor.u64() == message.log_ns, "the time of publishing");
-    message.fields = nlohmann::json::parse(record.body.substr(cursor.at()));
+    const std::string_view cdr = record.body.substr(cursor.at());
+    message.cdr.assign(cdr.begin(), cdr.end());
     ++placed_[{channel, message.log_ns, record.start}];
     file_.messages.push_back(std::move(message));
   }

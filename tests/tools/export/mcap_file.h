@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -13,13 +12,13 @@ struct McapMessage {
   std::string topic, schema;
   std::uint32_t sequence = 0;
   std::uint64_t log_ns = 0;
-  nlohmann::json fields;
+  std::vector<std::uint8_t> cdr;
 };
 
 struct McapFile {
-  std::map<std::string, nlohmann::json> schemas;  ///< by name
-  std::vector<McapMessage> messages;              ///< in the file's order
-  std::map<std::string, std::uint64_t> counted;   ///< from its Statistics, by topic
+  std::map<std::string, std::string> schemas;    ///< definitions ("ros2msg"), by name
+  std::vector<McapMessage> messages;             ///< in the file's order
+  std::map<std::string, std::uint64_t> counted;  ///< from its Statistics, by topic
   int chunks = 0;
   std::uint64_t first_ns = 0, last_ns = 0;  ///< from its Statistics
 };

@@ -17,7 +17,10 @@ int main(int argc, char** argv) {
   app.add_option("--csv", options.csv_folder,
                  "Write CSV tables to this folder: one per channel, and one per list in its messages")
       ->type_name("DIR");
-  app.add_option("--mcap", options.mcap_file, "Write an MCAP file, as Foxglove opens it")->type_name("FILE");
+  app.add_option("--mcap", options.mcap_file, "Write an MCAP file, as Foxglove and Rerun open it")->type_name("FILE");
+  app.add_option("--bag", options.bag_folder, "Write the MCAP file into a folder that `ros2 bag` plays")
+      ->type_name("DIR")
+      ->excludes(app.option("--mcap"));
   app.add_option("--channel-suffix", options.suffix, "Suffix of the vehicle's channels")->type_name("S");
   return tern::run_tool(app, "tern-export", argc, argv, [&] {
     fmt::print("{}", tern::value_or_throw(tern::exporting::export_log(options)));

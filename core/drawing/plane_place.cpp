@@ -1,4 +1,4 @@
-#include "viewer/bridge/plane_place.h"
+#include "core/drawing/plane_place.h"
 
 #include <algorithm>
 #include <cmath>

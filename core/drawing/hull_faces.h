@@ -6,7 +6,7 @@
 
 #include "core/base/types.h"
 
-namespace tern::exporting {
+namespace tern {
 
 /// Returns triangles that cover the surface of conv(vertices): column indices, counter-clockwise seen from outside.
 /// Empty if the points lie in a plane. A point counts as in a plane if its distance from the plane is at most 1e-6 of
@@ -14,4 +14,4 @@ namespace tern::exporting {
 /// @param vertices  3×m: extreme points (core/geometry/convex_hull.h)
 std::vector<std::array<int, 3>> hull_faces(const Points& vertices);
 
-}  // namespace tern::exporting
+}  // namespace tern

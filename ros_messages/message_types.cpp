@@ -1,4 +1,4 @@
-#include "tools/export/message_types.h"
+#include "ros_messages/message_types.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-namespace tern::exporting {
+namespace tern::ros {
 
 namespace {
 
@@ -59,4 +59,4 @@ const MessageTypes& message_types() {
   return kTypes;
 }
 
-}  // namespace tern::exporting
+}  // namespace tern::ros

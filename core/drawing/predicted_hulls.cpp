@@ -1,4 +1,4 @@
-#include "viewer/bridge/predicted_hulls.h"
+#include "core/drawing/predicted_hulls.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,11 +1,11 @@
-#include "tools/export/hull_faces.h"
+#include "core/drawing/hull_faces.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-namespace tern::exporting {
+namespace tern {
 namespace {
 
 /// Returns the vertices in the plane through three of them, if all others are on one side; otherwise none.
@@ -62,4 +62,4 @@ std::vector<std::array<int, 3>> hull_faces(const Points& vertices) {
   return triangles;
 }
 
-}  // namespace tern::exporting
+}  // namespace tern

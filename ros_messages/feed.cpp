@@ -1,0 +1,104 @@
+#include "ros_messages/feed.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tern::ros {
+namespace {
+
+template <class Key, class Value>
+void keep(std::map<Key, Value>& kept, const Key& key, Value value, std::size_t most) {
+  kept.insert_or_assign(key, std::move(value));
+  if (kept.size() > most) kept.erase(kept.begin());
+}
+
+const FeedTopic& topic_named(std::string_view name) {
+  const auto& all = feed_topics();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const FeedTopic& topic) { return topic.name == name; });
+  if (found == all.end()) throw std::out_of_range("no topic " + std::string(name));
+  return *found;
+}
+
+}  // namespace
+
+const std::vector<FeedTopic>& feed_topics() {
+  using namespace topics;
+  static const std::vector<FeedTopic> kTopics = {{kOdom, &ros_type<Odometry>()},
+                                                 {kTf, &ros_type<TFMessage>()},
+                                                 {kDetections, &ros_type<Detection3DArray>()},
+                                                 {kGoalPose, &ros_type<PoseStamped>(), true},
+                                                 {kPlan, &ros_type<Path>()},
+                                                 {kTrajectory, &ros_type<MultiDOFJointTrajectory>()},
+                                                 {kSetpoint, &ros_type<MultiDOFJointTrajectory>()},
+                                                 {kMap, &ros_type<PointCloud2>(), true},
+                                                 {kObstacles, &ros_type<SceneUpdate>()},
+                                                 {kCommittedLine, &ros_type<SceneUpdate>()},
+                                                 {kPlanLine, &ros_type<SceneUpdate>()},
+                                                 {kHulls, &ros_type<SceneUpdate>()},
+                                                 {kPlanes, &ros_type<SceneUpdate>()},
+                                                 {kRegions, &ros_type<SceneUpdate>(), true}};
+  return kTopics;
+}
+
+template <Message T>
+void Feed::write(std::string_view topic, const T& message) {
+  write_(topic_named(topic), encode_cdr(message));
+}
+
+void Feed::receive(const UavState& state) {
+  if (is_wanted(topics::kOdom)) write(topics::kOdom, odometry_of(state, position_sigma_, frames_));
+  if (is_wanted(topics::kTf)) write(topics::kTf, transform_of(state, frames_));
+}
+
+void Feed::receive_setpoint(const UavState& setpoint) {
+  if (is_wanted(topics::kSetpoint)) write(topics::kSetpoint, setpoint_of(setpoint, frames_));
+}
+
+void Feed::receive(const ObservationSet& frame) {
+  if (is_wanted(topics::kDetections)) write(topics::kDetections, detections_of(frame, frames_));
+}
+
+void Feed::receive(const ObstacleTruth& complete_set) {
+  if (!is_wanted(topics::kObstacles)) return;
+  write(topics::kObstacles, SceneDrawing(frames_, complete_set.at).obstacles(complete_set));
+}
+
+void Feed::receive(const TrackSet& complete_set) {
+  if (!is_wanted(topics::kHulls)) return;
+  keep(tracks_, std::pair(complete_set.header.name.sender_epoch_us, complete_set.batch.set), complete_set, kKept);
+}
+
+void Feed::receive(const Goal& goal) {
+  if (goal.mode == GoalMode::Go && is_wanted(topics::kGoalPose)) write(topics::kGoalPose, pose_of(goal, frames_));
+}
+
+void Feed::receive(const HorizonRequest& request) {
+  keep(requests_, request.header.name, request.t_s, kKept);
+  if (!is_wanted(topics::kCommittedLine)) return;
+  write(topics::kCommittedLine,
+        SceneDrawing(frames_, request.header.utime).line(request.committed, "committed", kCommittedColor));
+}
+
+void Feed::receive(const Plan& plan) {
+  if (plan.outcome == PlanOutcome::NoPlan) return;
+  if (is_wanted(topics::kPlan)) write(topics::kPlan, path_of(plan.trajectory, frames_));
+  if (is_wanted(topics::kTrajectory)) write(topics::kTrajectory, trajectory_of(plan.trajectory, frames_));
+  const SceneDrawing drawing(frames_, plan.header.utime);
+  if (is_wanted(topics::kPlanLine)) write(topics::kPlanLine, drawing.line(plan.trajectory, "plan", kPlanColor));
+  const auto request = requests_.find(plan.inputs.request);
+  if (request != requests_.end() && is_wanted(topics::kPlanes)) {
+    write(topics::kPlanes, drawing.planes(plan, request->second));
+  }
+  const auto tracks = tracks_.find({plan.inputs.predictions.sender_epoch_us, plan.inputs.prediction_set});
+  const bool has_none = plan.inputs.predictions == MessageName{};
+  if ((tracks != tracks_.end() || has_none) && is_wanted(topics::kHulls)) {
+    write(topics::kHulls, drawing.hulls(plan, has_none ? TrackSet() : tracks->second));
+  }
+}
+
+void Feed::receive(const VoxelMap& map, UTime at) {
+  if (is_wanted(topics::kMap)) write(topics::kMap, cloud_of(map, at, frames_));
+  if (is_wanted(topics::kRegions)) write(topics::kRegions, SceneDrawing(frames_, at).regions(map));
+}
+
+}  // namespace tern::ros
