@@ -44,6 +44,17 @@ void Tube::add(const Vec3& error, bool rests, UTime at) {
   if (seconds.size() > kMaxSeconds) seconds.pop_front();
 }
 
+void Tube::forget_since(UTime since) {
+  if (forgot_ && since - *forgot_ < kComesBack) return;
+  forgot_ = since;
+  const auto forget = [&](Seconds& seconds) {
+    while (!seconds.empty() && seconds.back().start + kSecond > since) seconds.pop_back();
+  };
+  std::for_each(moving_.begin(), moving_.end(), forget);
+  forget(resting_);
+  if (exited_ && *exited_ >= since) exited_.reset();
+}
+
 void Tube::slow_down(UTime at) {
   if (!has_error_ || halvings_ == kMaxHalvings || !unchanged_for(kStepPeriod, at)) return;
   if (stepped_up_) patience_ = unchanged_for(patience(), at) ? kPatience : std::min(patience_ * 2, kMaxPatience);

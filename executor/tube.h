@@ -51,6 +51,8 @@ class PersistentError {
 /// | event                          | effect                                                                       |
 /// |--------------------------------|------------------------------------------------------------------------------|
 /// | the vehicle leaves the tube    | for kWidenedFor the width is 1.5 times as large                              |
+/// | the vehicle follows again      | errors and exits are forgotten from a second before it reported that it did  |
+/// |                                | not: their cause was reported, and is over                                   |
 /// | the estimator is reset         | the width grows by the shift: either position, before or after, may be true  |
 /// | stationary, and no way out     | share() is halved, once in kStepPeriod, at most kMaxHalvings times           |
 /// | a plan is flown                | share() is doubled, if it has not changed during the patience                |
@@ -69,6 +71,7 @@ class Tube {
   static constexpr Duration kSecond{1'000'000};     ///< span over which the largest error is taken
   static constexpr std::size_t kMaxSeconds = 120;
   static constexpr Duration kWidenedFor{5'000'000};
+  static constexpr Duration kComesBack{60'000'000};
   static constexpr Duration kStepPeriod{250'000};
   static constexpr int kMaxHalvings = 5;
   static constexpr Duration kPatience{2'000'000}, kMaxPatience{60'000'000};
@@ -83,6 +86,9 @@ class Tube {
   void note_error(const Vec3& error) { has_error_ = has_error_ || (error.array() >= kMinError).any(); }
   /// The vehicle counts as imperfect, even if no error was seen.
   void assume_errors() { has_error_ = true; }
+  /// Forgets errors and exits since then: the vehicle has reported their cause and its end. A cause that comes back
+  /// within kComesBack is not over: its errors stay.
+  void forget_since(UTime since);
   /// The vehicle has left its tube.
   void add_exit(UTime at) { exited_ = at; }
   /// The estimator has reset itself. @param by  shift of the position, m, W
@@ -113,7 +119,7 @@ class Tube {
   double floor_m_;
   /// Sum of all shifts, and its least and largest value per axis so far.
   Vec3 shift_ = Vec3::Zero(), min_shift_ = Vec3::Zero(), max_shift_ = Vec3::Zero();
-  std::optional<UTime> exited_, stepped_;
+  std::optional<UTime> exited_, stepped_, forgot_;
   int halvings_ = 0;
   bool stepped_up_ = false;  ///< the newest step was one up
   Duration patience_ = kPatience;

@@ -22,6 +22,8 @@ constexpr double kStationarySpeed = 0.3;
 constexpr Duration kStationaryFor{200'000};
 /// After this long at rest, the measured error is that of hovering.
 constexpr Duration kSettled{1'000'000};
+/// A vehicle learns after at most this long that it no longer follows: of a pilot's switch by the next HEARTBEAT.
+constexpr Duration kNoticed{1'000'000};
 /// HEARTBEAT names a refused goal for this long.
 constexpr Duration kGoalRefusedReported{5'000'000};
 
@@ -183,6 +185,8 @@ void ExecutorNode::on_status(const VehicleStatus& status) {
   sigma_ = status.position_sigma;
   on_estimate_shift(resets_.add(status.resets, bus_.received()));
   if (!status.mode.empty() && status.mode != kPerfectMode) tube_.assume_errors();
+  if (status_.following && !status.following) left_at_ = status.at;
+  if (!status_.following && status.following && left_at_) tube_.forget_since(*left_at_ - kNoticed);
   status_ = status;
   update_following(bus_.clock().now());
 }

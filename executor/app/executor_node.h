@@ -52,6 +52,7 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// |                                                |           | the committed trajectory is flown to its end        |
 /// | a start that RejoinGuard refuses               | Holding   | Waiting, with the reason                            |
 /// | a GOAL with the id in use and other contents   | any       | refused and counted as inconsistent                 |
+/// | the vehicle follows again                      | Following | the tube forgets the errors from 1 s before it left |
 /// | the vehicle follows for the first time         | Holding   | the yaw starts at the measured yaw                  |
 /// | the estimator is reset after that              | any       | the tube grows by the shift                         |
 ///
@@ -129,7 +130,8 @@ class ExecutorNode final : public Node {
   std::optional<UTime> silent_since_;  ///< set in state Silent: a UAV_STATE of this time or later ends it
   Tube tube_;
   EstimateResets resets_;
-  Vec3 sigma_ = Vec3::Zero();  ///< standard deviation of the estimate, m
+  std::optional<UTime> left_at_;  ///< when VEHICLE_STATUS last reported that the vehicle no longer follows
+  Vec3 sigma_ = Vec3::Zero();     ///< standard deviation of the estimate, m
   std::int64_t tube_exits_ = 0;
   bool outside_tube_ = false;
   PersistentError persistent_error_;

@@ -143,6 +143,23 @@ TEST(Tube, HoldsTheTruePlaceWhicheverSideOfAResetIsRight) {
   EXPECT_LT((tube.width(Vec3::Zero(), kNow) - Vec3(0.7, 0.3, 0.2)).norm(), 1e-12) << "it may have been right before";
 }
 
+TEST(Tube, ForgetsTheErrorsOfACauseThatIsReportedToBeOver) {
+  Tube tube = imperfect();
+  const double before = tube.width(Vec3::Zero(), kNow).x();
+  const auto errs = [&](UTime at) {
+    tube.add(Vec3::Constant(0.9), false, at);
+    tube.add_exit(at);
+  };
+  const UTime left = kNow + Tube::kSecond * 10;
+  errs(left - Tube::kSecond);
+  EXPECT_GT(tube.width(Vec3::Zero(), left).x(), 1.3);
+  tube.forget_since(left - Tube::kSecond);
+  EXPECT_EQ(tube.width(Vec3::Zero(), left).x(), before);
+  errs(left + Tube::kSecond * 5);
+  tube.forget_since(left + Tube::kSecond * 5);
+  EXPECT_GT(tube.width(Vec3::Zero(), left + Tube::kSecond * 5).x(), 1.3) << "it comes back";
+}
+
 TEST(Tube, ForgetsAfterTwoMinutes) {
   Tube tube(0.0);
   tube.add(Vec3(1.0, 0.0, 0.0), false, UTime{1});
