@@ -29,6 +29,7 @@ struct VirtualSystem::Parts {
   Scenario scenario;
   ExecutorConfig executor;
   PredictorConfig predictor;
+  MapperConfig mapper;
   VoxelMap map;
   PlannerConfig planner;
   std::string effective_yaml;  ///< of the whole file
@@ -38,7 +39,8 @@ struct VirtualSystem::Parts {
         scenario(read_scenario(document)),
         executor(document.root().section("executor").read<ExecutorConfig>()),
         predictor(read_predictor_config(document.root().section("predictor"))),
-        map(load_map(scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA")).map),
+        mapper(read_mapper_config(document.root().section("mapper"))),
+        map(load_map(scenario, mapper, std::getenv("TERN_DATA")).map),
         planner(read_planner_config(document.root().section("planner"), scenario.semantics)) {}
 };
 
@@ -72,7 +74,9 @@ void VirtualSystem::start(const std::string& process) {
   const auto make = [&](Bus& bus) -> std::unique_ptr<Node> {
     if (process == "tern-executor") return std::make_unique<ExecutorNode>(bus, parts_->scenario.uav, parts_->executor);
     if (process == "tern-predictor") return std::make_unique<PredictorNode>(bus, parts_->predictor);
-    if (process == "tern-mapper") return std::make_unique<MapperNode>(bus, parts_->map);
+    if (process == "tern-mapper") {
+      return std::make_unique<MapperNode>(bus, parts_->map, live_setup(parts_->scenario, parts_->mapper));
+    }
     if (process != "tern-planner") throw std::invalid_argument("VirtualSystem: no process " + process);
     PlannerExecution execution;
     execution.threaded = false;

@@ -13,6 +13,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
+#include "core/world/scan.h"
 #include "core/world/search_view.h"
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
@@ -74,6 +75,12 @@ inline constexpr Channel<VehicleStatus> kVehicleStatus{
 /// The detections of one sensor at one time; several sensors may send.
 inline constexpr Channel<ObservationSet> kObstacleObservations{
     "OBSTACLE_OBSERVATIONS", Scope::Vehicle, "30 Hz", kStream, Role::Vehicle, kAnyone};
+/// Points that a sensor measured, for a live map; several sensors may send.
+inline constexpr Channel<CloudScan> kPointCloud{
+    "POINT_CLOUD", Scope::Vehicle, "at most 20 Hz", kStream, Role::Vehicle, kAnyone};
+/// Distances that a camera measured, for a live map; several cameras may send.
+inline constexpr Channel<DepthImage> kDepthImage{
+    "DEPTH_IMAGE", Scope::Vehicle, "at most 20 Hz", kStream, Role::Vehicle, kAnyone};
 /// Motions that the owner of obstacles declares, with α.
 inline constexpr Channel<TrackSet> kDeclaredMotions{
     "DECLARED_MOTIONS", Scope::Shared, "5 Hz", kStream, Role::Vehicle, kSilence};
@@ -119,24 +126,10 @@ inline constexpr Channel<FlightResult> kFlightResult{
     "FLIGHT_RESULT", Scope::Vehicle, "at the end", kLatched, Role::Vehicle, kSilence};
 // clang-format on
 
-inline constexpr std::tuple kAll{kUavState,
-                                 kSetpoint,
-                                 kVehicleStatus,
-                                 kObstacleObservations,
-                                 kDeclaredMotions,
-                                 kPredictions,
-                                 kTrackBounds,
-                                 kSemanticMap,
-                                 kGoal,
-                                 kHorizonRequest,
-                                 kPlan,
-                                 kPlanTiming,
-                                 kSearchView,
-                                 kHeartbeat,
-                                 kConfiguration,
-                                 kObstacleTruth,
-                                 kVehicleTruth,
-                                 kFlightResult};
+inline constexpr std::tuple kAll{kUavState,   kSetpoint,        kVehicleStatus, kObstacleObservations, kPointCloud,
+                                 kDepthImage, kDeclaredMotions, kPredictions,   kTrackBounds,          kSemanticMap,
+                                 kGoal,       kHorizonRequest,  kPlan,          kPlanTiming,           kSearchView,
+                                 kHeartbeat,  kConfiguration,   kObstacleTruth, kVehicleTruth,         kFlightResult};
 
 }  // namespace channels
 

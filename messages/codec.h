@@ -43,6 +43,11 @@ inline constexpr const char* kLcmType<VehicleStatus> = "vehicle_status_t";
 /// Inconsistent: two detections have the same track id.
 template <>
 inline constexpr const char* kLcmType<ObservationSet> = "observation_set_t";
+template <>
+inline constexpr const char* kLcmType<CloudScan> = "point_cloud_t";
+/// Inconsistent: the quaternion has not the length 1; the number of depths is no multiple of the width.
+template <>
+inline constexpr const char* kLcmType<DepthImage> = "depth_image_t";
 /// Inconsistent: the tracks' piece counts do not sum to the number of pieces. Also: two tracks have the same id; a
 /// static track moves or has several pieces.
 template <>

@@ -8,6 +8,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
+#include "core/world/scan.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
@@ -26,6 +27,8 @@ UTime claimed_time(const T& message) {
 }
 inline UTime claimed_time(const TrackSet& m) { return std::max(claimed_time(m.header), m.made_at); }
 inline UTime claimed_time(const ObservationSet& m) { return std::max(claimed_time(m.header), m.at); }
+inline UTime claimed_time(const CloudScan& m) { return std::max(claimed_time(m.header), m.at); }
+inline UTime claimed_time(const DepthImage& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const ObstacleTruth& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const UavState& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const VehicleStatus& m) { return std::max(claimed_time(m.header), m.at); }

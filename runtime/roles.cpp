@@ -59,7 +59,7 @@ const std::vector<ProcessRole>& process_roles() {
        names_of(kObstacleObservations, kDeclaredMotions, kUavState, kPredictions, kTrackBounds)},
       {"tern-planner", Role::Planner,
        names_of(kHorizonRequest, kPredictions, kSemanticMap, kGoal, kPlan, kPlanTiming, kSearchView)},
-      {"tern-mapper", Role::Mapper, names_of(kSemanticMap)},
+      {"tern-mapper", Role::Mapper, names_of(kSemanticMap, kUavState, kPointCloud, kDepthImage)},
       {"tern-logger", Role::Observer, {}},
       {"tern-monitor", Role::Observer,
        names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kSemanticMap,

@@ -57,7 +57,8 @@ AFTER_CHANNELS = """
    ([keys](senders.md)).
 4. Times are integer microseconds, by the vehicle's clock unless a field says otherwise. All other numbers are in SI
    units and radians, unless the unit says otherwise.
-5. Every number is finite, except an infinite `j_max` and the measures of `flight_result_t`, which may be NaN.
+5. Every number is finite, except an infinite `j_max`, the measures of `flight_result_t` and the coordinates of
+   `cloud_point_t`, which may be NaN.
 6. A `boolean` is 0 or 1. Enumerations are `int8_t` with named constants. Digests are unsigned numbers of 64 bits in an
    `int64_t`.
 7. Each limit `MAX_…` is legal by itself; all together may exceed the size of a message.

@@ -67,7 +67,10 @@ std::string left_out_text(const CloudFile& cloud) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, why);
   };
   add(cloud.not_finite, "are not finite");
-  add(cloud.too_far, fmt::format("lie beyond {:g} m of the world's origin", kMaxCoordinate));
+  const Vec3& far = cloud.first_too_far;
+  add(cloud.too_far, fmt::format("lie beyond {:g} m of the world's origin, the first at ({:.10g}, {:.10g}, {:.10g}) in "
+                                 "the file",
+                                 kMaxCoordinate, far.x(), far.y(), far.z()));
   add(cloud.not_a_class, "have a label that is no class number (0 to 255)");
   return text;
 }

@@ -35,6 +35,7 @@ LoadedMap load_map(const Scenario& scenario, const MapperConfig& config, const c
   MapBuildOptions options;
   options.resolution = config.resolution;
   options.extents = config.extents;
+  if (!options.extents && config.live.enabled) options.extents = scenario.uav.flight_box;
   options.include = scenario.uav.flight_box;
   options.somewhere = scenario.uav.start;
   options.background = config.background;

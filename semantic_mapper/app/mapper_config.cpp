@@ -143,6 +143,22 @@ Box read_extents(ConfigSection section) {
   return box;
 }
 
+LiveConfig read_live(ConfigSection section) {
+  LiveConfig live;
+  live.enabled = section.flag("enabled", live.enabled,
+                              "POINT_CLOUD and DEPTH_IMAGE change the map in flight; without `extents` it covers the "
+                              "flight box");
+  live.period = Duration::from_seconds(section.number("period_s", live.period.seconds(), Range{0.1, 60.0},
+                                                      "shortest time between two versions of the map, s"));
+  live.range.min = section.number("min_range_m", live.range.min, Range::at_least(0.0, 100.0),
+                                  "nearer points are the vehicle's own parts and are ignored, m");
+  live.range.max = section.number("max_range_m", live.range.max, Range::positive(1000.0),
+                                  "points farther away are free space up to here, m");
+  section.finish();
+  if (live.range.min >= live.range.max) throw section.error("max_range_m", "must be greater than min_range_m");
+  return live;
+}
+
 }  // namespace
 
 MapperConfig read_mapper_config(ConfigSection section) {
@@ -156,11 +172,12 @@ MapperConfig read_mapper_config(ConfigSection section) {
   config.has_own_classes = section.has("classes");
   config.classes = read_classes(section.section("classes"), section.has("classes"));
   for (const ConfigSection& source : section.list("sources")) config.sources.push_back(read_source(source));
+  config.live = read_live(section.section("live"));
   const bool has_octomap = std::any_of(config.sources.begin(), config.sources.end(),
                                        [](const CloudSource& source) { return source.format == CloudFormat::OctoMap; });
-  config.background = *named<VoxelLabel>(
-      section.choice("background", has_octomap ? "unknown" : "free", {"free", "unknown"},
-                     "label of voxels without a source; by default `unknown` with an OctoMap, which has free space"));
+  config.background = *named<VoxelLabel>(section.choice(
+      "background", has_octomap || config.live.enabled ? "unknown" : "free", {"free", "unknown"},
+      "label of voxels without a source; by default `unknown` with an OctoMap or `live`, which have free space"));
   section.finish();
   return config;
 }

@@ -9,6 +9,7 @@
 #include "core/world/voxel_map.h"
 #include "runtime/config.h"
 #include "semantic_mapper/sources/point_cloud.h"
+#include "semantic_mapper/voxel_map/live_map.h"
 
 namespace tern {
 
@@ -29,6 +30,13 @@ struct CloudSource {
   ConfigSection section;  ///< the section, for errors that are found when the file is opened
 };
 
+/// The changes of the map by POINT_CLOUD and DEPTH_IMAGE.
+struct LiveConfig {
+  bool enabled = false;
+  Duration period{500'000};  ///< shortest time between two versions of the map
+  ScanRange range;
+};
+
 /// The configuration of tern-mapper.
 struct MapperConfig {
   double resolution = 0.25;    ///< m
@@ -38,6 +46,7 @@ struct MapperConfig {
   std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< of point clouds: class or group name → label
   bool has_own_classes = false;                             ///< false: `classes` are the defaults
   std::vector<CloudSource> sources;
+  LiveConfig live;
 };
 
 /// Reads the section and checks that it has no further keys. The keys are listed in docs/reference/keys.md.

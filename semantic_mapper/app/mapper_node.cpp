@@ -9,6 +9,7 @@
 
 #include "messages/codec.h"
 #include "runtime/log.h"
+#include "semantic_mapper/app/live_updates.h"
 #include "semantic_mapper/app/load_map.h"
 
 namespace tern {
@@ -31,27 +32,55 @@ std::array<std::int64_t, kVoxelLabels> count_labels(const VoxelMap& map) {
 
 }  // namespace
 
-MapperNode::MapperNode(Bus& bus, const VoxelMap& map)
-    : bus_(bus), chunks_(to_chunks(map)), rotation_began_(bus.clock().now()), next_(rotation_began_) {
+MapperNode::MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSetup>& live)
+    : bus_(bus), rotation_began_(bus.clock().now()), next_(rotation_began_), earliest_(rotation_began_) {
+  if (live) live_ = std::make_unique<LiveUpdates>(bus, map, *live);
+  publish(map);
+}
+
+MapperNode::~MapperNode() = default;
+
+void MapperNode::publish(const VoxelMap& map) {
+  chunks_ = to_chunks(map);
   if (chunks_.size() > static_cast<std::size_t>(kMaxMapChunks)) {
     throw std::invalid_argument(
         fmt::format("the map takes {} chunks (limit {}): give smaller extents or a coarser resolution", chunks_.size(),
                     kMaxMapChunks));
   }
+  at_ = 0;
+  next_ = earliest_;
+}
+
+UTime MapperNode::next_wakeup() const {
+  if (!live_) return next_;
+  const UTime next = std::min(next_, live_->next_scan());
+  return at_ == 0 ? std::min(next, live_->next_map()) : next;
 }
 
 void MapperNode::step(UTime now) {
+  if (live_) {
+    live_->add_scans(now);
+    if (at_ == 0) {
+      if (const auto map = live_->take_new(now)) publish(*map);
+    }
+  }
   if (now < next_) return;
   if (at_ == 0) rotation_began_ = now;
   const MapChunk& chunk = chunks_[at_];
   bus_.publish(channels::kSemanticMap, chunk);
-  next_ = now + std::max(kPacing, Duration{bytes_of(chunk) * 1'000'000 / kMapBytesPerSecond});
+  earliest_ = now + std::max(kPacing, Duration{bytes_of(chunk) * 1'000'000 / kMapBytesPerSecond});
   at_ = (at_ + 1) % chunks_.size();
-  if (at_ == 0) next_ = std::max(next_, rotation_began_ + kMapPeriod);
+  next_ = at_ == 0 ? std::max(earliest_, rotation_began_ + kMapPeriod) : earliest_;
+}
+
+NodeHealth MapperNode::health() const {
+  const std::string waiting_for = live_ ? live_->waiting_for() : "";
+  return {waiting_for.empty() ? ProcessState::Ready : ProcessState::Waiting, waiting_for};
 }
 
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
-  const LoadedMap loaded = load_map(context.scenario, read_mapper_config(context.section), std::getenv("TERN_DATA"));
+  const MapperConfig config = read_mapper_config(context.section);
+  const LoadedMap loaded = load_map(context.scenario, config, std::getenv("TERN_DATA"));
   for (const MapRemark& remark : loaded.remarks) {
     log::write(remark.is_warning ? log::Level::Warning : log::Level::Info, "{}", remark.text);
   }
@@ -61,7 +90,7 @@ std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
             map.version, map.grid.size.x(), map.grid.size.y(), map.grid.size.z(), map.grid.resolution, count[2],
             count[3], count[4], count[0]);
   try {
-    return std::make_unique<MapperNode>(context.bus, map);
+    return std::make_unique<MapperNode>(context.bus, map, live_setup(context.scenario, config));
   } catch (const std::invalid_argument& e) {
     throw ConfigError(fmt::format("{}: mapper: {}", context.scenario.file, e.what()));
   }

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 #include "runtime/process.h"
+#include "semantic_mapper/app/live_setup.h"
 
 namespace tern {
 
@@ -17,23 +21,34 @@ inline constexpr Duration kMapPeriod{1'000'000};
 /// The largest rate of SEMANTIC_MAP, bytes/s.
 inline constexpr std::int64_t kMapBytesPerSecond = 1'000'000;
 
+class LiveUpdates;
+
 /// Publishes the chunks of a map in rotation. Chunks are at least kPacing apart, and their rate is at most
 /// kMapBytesPerSecond. A small map is therefore complete once a second; a large one is repeated without pause.
+///
+/// A live map changes by scans (LiveMap). A changed map is published at once as a new version, once per period at most.
+/// Each version is sent whole before the next one begins, so every receiver completes it.
 class MapperNode final : public Node {
  public:
-  /// @throws std::invalid_argument if the map needs more than kMaxMapChunks chunks
-  MapperNode(Bus& bus, const VoxelMap& map);
+  /// @param live  nullopt: the map does not change
+  /// @throws std::invalid_argument if the map needs more than kMaxMapChunks chunks, or is too large for a live map
+  MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSetup>& live = {});
+  ~MapperNode() override;
 
-  [[nodiscard]] UTime next_wakeup() const override { return next_; }
+  [[nodiscard]] UTime next_wakeup() const override;
   void step(UTime now) override;
-  [[nodiscard]] NodeHealth health() const override { return {ProcessState::Ready, ""}; }
+  [[nodiscard]] NodeHealth health() const override;
 
  private:
+  void publish(const VoxelMap& map);
+
   Bus& bus_;
   std::vector<MapChunk> chunks_;
   std::size_t at_ = 0;  // index of the next chunk
   UTime rotation_began_;
   UTime next_;
+  UTime earliest_;  // when the rate allows the next chunk
+  std::unique_ptr<LiveUpdates> live_;
 };
 
 /// Returns the node of tern-mapper: reads its section, loads the map and logs its content. @throws ConfigError

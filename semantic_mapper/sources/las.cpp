@@ -60,7 +60,10 @@ Result<LasHeader> read_header(std::span<const std::uint8_t> bytes, const std::st
                     fmt::format("LAS version {}.{} (limit 1.0 to 1.4)", bytes[kMajorAt], bytes[kMinorAt]));
   }
   const std::uint8_t format = bytes[kFormatAt];
-  if (format >= 128) return bad_file(file, kFormatAt, "compressed (LAZ) points: decompress the file first");
+  if (format >= 128) {
+    return bad_file(file, kFormatAt,
+                    "compressed (LAZ) points: decompress the file first, as by `pdal translate FILE.laz FILE.las`");
+  }
   if (format >= kRecordLength.size())
     return bad_file(file, kFormatAt, fmt::format("point format {} (limit 0 to 10)", format));
   LasHeader header;

@@ -15,7 +15,7 @@ void CloudFile::add(const Vec3& p_file, const PointFrame& frame, double label) {
   }
   const auto p = frame.to_world(p_file);
   if (!p) {
-    ++too_far;
+    if (too_far++ == 0) first_too_far = p_file;
   } else if (!(label >= 0.0 && label <= 255.0) || label != std::floor(label)) {
     ++not_a_class;
   } else {

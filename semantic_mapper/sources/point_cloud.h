@@ -33,6 +33,7 @@ struct CloudFile {
   PointCloud points;
   std::int64_t not_finite = 0;          ///< points with a coordinate that is NaN or infinite, left out
   std::int64_t too_far = 0;             ///< points beyond kMaxCoordinate in W, left out
+  Vec3 first_too_far = Vec3::Zero();    ///< the first of them, in the file's coordinates
   std::int64_t not_a_class = 0;         ///< points whose label is not an integer in [0, 255], left out
   bool has_labels = true;               ///< false: the file has no property for the class, and every class is 0
   std::vector<std::string> properties;  ///< names of a point's properties in file order; empty for LAS

@@ -9,17 +9,22 @@ namespace {
 
 using Cell = Eigen::Vector3i;
 
-/// The mark of a point on a voxel. Marks are sorted by voxel, then by class.
-struct Mark {
-  std::int64_t voxel;
-  std::uint8_t class_number;
-  friend bool operator<(const Mark& a, const Mark& b) {
-    return a.voxel != b.voxel ? a.voxel < b.voxel : a.class_number < b.class_number;
-  }
+/// The mark of a point on a voxel, in eight bytes: a large cloud has as many. Marks are sorted by voxel, then by class.
+class Mark {
+ public:
+  Mark(std::int64_t voxel, std::uint8_t class_number)
+      : packed_(static_cast<std::uint64_t>(voxel) << 8U | std::uint64_t{class_number}) {}
+  [[nodiscard]] std::int64_t voxel() const { return static_cast<std::int64_t>(packed_ >> 8U); }
+  [[nodiscard]] std::uint8_t class_number() const { return static_cast<std::uint8_t>(packed_ & 0xffU); }
+  friend bool operator<(const Mark& a, const Mark& b) { return a.packed_ < b.packed_; }
+
+ private:
+  std::uint64_t packed_;
 };
 
 std::vector<Mark> marks_of(const CloudLayer& cloud, const VoxelGrid& grid) {
   std::vector<Mark> marks;
+  marks.reserve(cloud.points.size());
   const int reach = static_cast<int>(std::ceil(cloud.point_radius / grid.resolution));
   const double radius2 = cloud.point_radius * cloud.point_radius;
   for (const LabelledPoint& point : cloud.points) {
@@ -35,7 +40,7 @@ std::vector<Mark> marks_of(const CloudLayer& cloud, const VoxelGrid& grid) {
         for (int x = low.x(); x <= high.x(); ++x) {
           const Cell cell(x, y, z);
           if (cell != own && (grid.centre(cell) - point.position).squaredNorm() > radius2) continue;
-          marks.push_back({grid.index(cell), point.class_number});
+          marks.emplace_back(grid.index(cell), point.class_number);
         }
       }
     }
@@ -54,8 +59,8 @@ struct Tally {
 Tally count(const CloudLayer& cloud, std::vector<Mark>::const_iterator begin, std::vector<Mark>::const_iterator end) {
   Tally tally;
   while (begin != end) {
-    const std::uint8_t number = begin->class_number;
-    const auto next = std::find_if(begin, end, [&](const Mark& m) { return m.class_number != number; });
+    const std::uint8_t number = begin->class_number();
+    const auto next = std::find_if(begin, end, [&](const Mark& m) { return m.class_number() != number; });
     const int n = static_cast<int>(next - begin);
     const auto label = idx(cloud.classes[number]->label);
     tally.of_label[label] += n;
@@ -76,8 +81,8 @@ bool paint_cloud(const CloudLayer& cloud, VoxelPainter& painter) {
   const std::vector<Mark> marks = marks_of(cloud, grid);
   bool has_painted = marks.empty();
   for (auto begin = marks.begin(); begin != marks.end();) {
-    const std::int64_t voxel = begin->voxel;
-    const auto end = std::find_if(begin, marks.end(), [&](const Mark& m) { return m.voxel != voxel; });
+    const std::int64_t voxel = begin->voxel();
+    const auto end = std::find_if(begin, marks.end(), [&](const Mark& m) { return m.voxel() != voxel; });
     const Tally tally = count(cloud, begin, end);
     begin = end;
     for (std::size_t label = 0; label < kVoxelLabels; ++label) {

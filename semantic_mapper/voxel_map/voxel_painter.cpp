@@ -8,9 +8,7 @@
 #include "semantic_mapper/voxel_map/standing_place.h"
 
 namespace tern {
-namespace {
 
-/// Returns the strength of a label; the background has 0.
 std::uint8_t strength_of(VoxelLabel label) {
   switch (label) {
     case VoxelLabel::Unknown: return 1;
@@ -21,8 +19,6 @@ std::uint8_t strength_of(VoxelLabel label) {
   }
   return 0;
 }
-
-}  // namespace
 
 VoxelPainter::VoxelPainter(const VoxelGrid& grid, VoxelLabel background) {
   const auto n = static_cast<std::size_t>(grid.voxels());

@@ -14,6 +14,9 @@ namespace tern {
 /// The class of occupied voxels whose source has no labels.
 inline constexpr const char* kUnlabelled = "unlabelled";
 
+/// Returns the strength of a label: occupied > repulsive > attractive > free > unknown > 0.
+std::uint8_t strength_of(VoxelLabel label);
+
 /// A map in the making.
 class VoxelPainter {
  public:

@@ -87,6 +87,14 @@ struct Words {
   void add(const ObservationSet& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.detections);
   }
+  void add(const CloudPoint& p) { (*this)(p.position, p.class_number); }
+  void add(const CloudScan& s) {
+    (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.has_classes, s.points);
+  }
+  void add(const DepthImage& i) {
+    (*this)(i.header, i.at, i.sensor_id, i.range_m, i.sensor_position, i.q_WC, i.fx, i.fy, i.cx, i.cy, i.unit_m,
+            i.width, i.first_row, i.depths);
+  }
   void add(const TrackSet& s) { (*this)(s.header, s.batch, s.made_at, s.confidence, s.left_out, s.tracks); }
   void add(const MapChunk& c) {
     (*this)(c.header, c.version, c.grid.origin, c.grid.resolution, c.grid.size, c.class_names, c.index, c.count,
@@ -139,6 +147,8 @@ std::vector<std::uint64_t> words_of(const T& value) {
 template std::vector<std::uint64_t> words_of(const UavState&);
 template std::vector<std::uint64_t> words_of(const VehicleStatus&);
 template std::vector<std::uint64_t> words_of(const ObservationSet&);
+template std::vector<std::uint64_t> words_of(const CloudScan&);
+template std::vector<std::uint64_t> words_of(const DepthImage&);
 template std::vector<std::uint64_t> words_of(const TrackSet&);
 template std::vector<std::uint64_t> words_of(const MapChunk&);
 template std::vector<std::uint64_t> words_of(const Goal&);
@@ -175,6 +185,14 @@ std::vector<std::int32_t> array_sizes(const TrackBounds& of) {
 template <>
 std::vector<std::int32_t> array_sizes(const ObservationSet& set) {
   return {size_of(set.detections)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const CloudScan& scan) {
+  return {size_of(scan.points)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const DepthImage& image) {
+  return {size_of(image.depths)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const TrackSet& set) {

@@ -10,9 +10,9 @@
 
 namespace tern {
 
-using AllMessages =
-    testing::Types<UavState, VehicleStatus, ObservationSet, TrackSet, MapChunk, Goal, HorizonRequest, Plan, PlanTiming,
-                   SearchView, TrackBounds, Heartbeat, ConfigurationReport, ObstacleTruth, FlightResult>;
+using AllMessages = testing::Types<UavState, VehicleStatus, ObservationSet, CloudScan, DepthImage, TrackSet, MapChunk,
+                                   Goal, HorizonRequest, Plan, PlanTiming, SearchView, TrackBounds, Heartbeat,
+                                   ConfigurationReport, ObstacleTruth, FlightResult>;
 
 /// Returns the sizes of a value's arrays, in the order in which its .lcm file declares the counts.
 template <class T>

@@ -133,6 +133,34 @@ TEST(Rejection, OfGoal) {
   EXPECT_EQ(after<Goal>([](auto& g) { g.mode = static_cast<GoalMode>(255); }), "Enumeration");
 }
 
+TEST(Rejection, OfCloudScan) {
+  EXPECT_EQ(after<CloudScan>([](auto& s) { s.at.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<CloudScan>([](auto& s) { s.sensor_id = -1; }), "Number");
+  EXPECT_EQ(after<CloudScan>([](auto& s) { s.range_m = kNaN; }), "Number");
+  EXPECT_EQ(after<CloudScan>([](auto& s) { s.sensor_position.z() = kInfinity; }), "Number");
+  EXPECT_EQ(after<CloudScan>([](auto& s) { s.points[0].position.x() = std::numeric_limits<float>::quiet_NaN(); }),
+            "accepted")
+      << "no measurement";
+  EXPECT_EQ(after_flag_of_two<CloudScan>([](auto& s, bool on) { s.has_classes = on; }), "Enumeration");
+}
+
+TEST(Rejection, OfDepthImage) {
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.at.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.sensor_id = -1; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.range_m = -1.0; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.sensor_position.x() = kNaN; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.q_WC[1] = kNaN; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.q_WC *= 0.9; }), "Inconsistent");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.fx = 0.0; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.fy = -1.0; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.cx = kNaN; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.cy = kInfinity; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.unit_m = 0.0; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.width = 0; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.first_row = -1; }), "Number");
+  EXPECT_EQ(after<DepthImage>([](auto& i) { i.width = static_cast<int>(i.depths.size()) - 1; }), "Inconsistent");
+}
+
 TEST(Rejection, OfObservationSet) {
   EXPECT_EQ(after<ObservationSet>([](auto& s) { s.at.us = kFarFuture; }), "Time");
   EXPECT_EQ(after<ObservationSet>([](auto& s) { s.sensor_id = -1; }), "Number");

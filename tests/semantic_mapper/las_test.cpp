@@ -75,7 +75,8 @@ TEST(Las, NamesFileOffsetValueAndLimitOfWhatItRefuses) {
   EXPECT_EQ(error_of({}), "scan.las, offset 0: the file ends within the header of 227 bytes");
   EXPECT_THAT(with([](FileBytes& b) { b[0] = 'X'; }), HasSubstr("offset 0: no LAS file"));
   EXPECT_THAT(with([](FileBytes& b) { b[25] = 5; }), HasSubstr("offset 24: LAS version 1.5 (limit 1.0 to 1.4)"));
-  EXPECT_THAT(with([](FileBytes& b) { b[104] = 131; }), HasSubstr("offset 104: compressed (LAZ)"));
+  EXPECT_THAT(with([](FileBytes& b) { b[104] = 131; }),
+              HasSubstr("offset 104: compressed (LAZ) points: decompress the file first, as by `pdal translate"));
   EXPECT_THAT(with([](FileBytes& b) { b[104] = 11; }), HasSubstr("offset 104: point format 11 (limit 0 to 10)"));
   EXPECT_THAT(with([](FileBytes& b) { put<std::uint16_t>(b, 105, 33); }),
               HasSubstr("records of 33 bytes (format 3 has at least 34)"));

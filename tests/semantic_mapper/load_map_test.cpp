@@ -163,6 +163,10 @@ TEST_F(LoadMapTest, ACloudThatMarksNoVoxelIsRefusedWithWhatItHolds) {
               testing::AllOf(HasSubstr("no point lies in or near uav.flight_box"), HasSubstr("(710.05, -3, 0)")));
   EXPECT_THAT(error_of(with_source("file: far.ply", "extents: {min: [-2, -6, 0], max: [24, 6, 4]}, ")),
               HasSubstr("no point lies inside mapper.extents"));
+  write("utm.xyz", support::text_file(wall(6, Vec3(465000, 5572094, 300))));
+  EXPECT_THAT(
+      error_of(with_source("file: utm.xyz")),
+      HasSubstr("1891 lie beyond 1e+06 m of the world's origin, the first at (465010.05, 5572091, 300) in the file"));
   write("empty.las", support::las_file({}, {}));
   EXPECT_THAT(error_of(with_source("file: empty.las")), HasSubstr("0 points, but none marks a voxel"));
   write("wall.las", support::las_file(wall(6), {}));

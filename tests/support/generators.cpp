@@ -184,6 +184,46 @@ ObservationSet random_message(Rng& rng, Fill fill) {
 }
 
 template <>
+CloudScan random_message(Rng& rng, Fill fill) {
+  CloudScan scan;
+  scan.header = header(rng);
+  scan.at = time(rng);
+  scan.sensor_id = random_integer(rng, 0, 1000);
+  scan.range_m = number(rng, 0.0, kMaxCoordinate);
+  scan.sensor_position = position(rng);
+  scan.has_classes = flag(rng);
+  scan.points.resize(static_cast<std::size_t>(count(rng, fill, 0, kMaxCloudPointsPerMessage)));
+  for (CloudPoint& point : scan.points) {
+    for (int i = 0; i < 3; ++i) point.position[i] = static_cast<float>(measure(rng, -1e30, 1e30));
+    point.class_number = static_cast<std::uint8_t>(random_integer(rng, 0, 255));
+  }
+  return scan;
+}
+
+template <>
+DepthImage random_message(Rng& rng, Fill fill) {
+  DepthImage image;
+  image.header = header(rng);
+  image.at = time(rng);
+  image.sensor_id = random_integer(rng, 0, 1000);
+  image.range_m = number(rng, 0.0, kMaxCoordinate);
+  image.sensor_position = position(rng);
+  image.q_WC = (Eigen::Vector4d(2.0, 0.0, 0.0, 0.0) + Eigen::Vector4d::Constant(rng.uniform())).normalized();
+  image.fx = positive(rng, kMaxCoordinate);
+  image.fy = positive(rng, kMaxCoordinate);
+  image.cx = number(rng, -kMaxCoordinate, kMaxCoordinate);
+  image.cy = number(rng, -kMaxCoordinate, kMaxCoordinate);
+  image.unit_m = positive(rng, 1e3);
+  image.width = fill == Fill::Largest ? 160 : random_integer(rng, 1, 200);
+  image.first_row = random_integer(rng, 0, 1'000'000);
+  const int rows = count(rng, fill, 0, kMaxDepthsPerMessage / image.width);
+  for (int i = 0; i < rows * image.width; ++i) {
+    image.depths.push_back(static_cast<std::int16_t>(random_integer(rng, -32'768, 32'767)));
+  }
+  return image;
+}
+
+template <>
 TrackSet random_message(Rng& rng, Fill fill) {
   TrackSet set;
   set.header = header(rng);

@@ -7,6 +7,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
+#include "core/world/scan.h"
 #include "core/world/search_view.h"
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"

@@ -1,0 +1,60 @@
+#include "semantic_mapper/app/live_updates.h"
+
+#include <fmt/format.h>
+
+#include "semantic_mapper/app/load_source.h"
+#include "semantic_mapper/sources/class_names.h"
+#include "semantic_mapper/voxel_map/voxel_painter.h"
+
+namespace tern {
+
+std::optional<LiveSetup> live_setup(const Scenario& scenario, const MapperConfig& config) {
+  if (!config.live.enabled) return std::nullopt;
+  LiveSetup setup;
+  set_meanings(config.classes, setup.classes);
+  for (const std::size_t number : {0U, 1U}) {
+    if (!setup.classes[number] && !config.has_own_classes)
+      setup.classes[number] = ClassMeaning{kUnlabelled, VoxelLabel::Occupied};
+  }
+  for (auto& meaning : setup.classes) {
+    if (meaning && !is_kept(meaning->label, scenario.semantics.enabled)) meaning.reset();
+  }
+  setup.range = config.live.range;
+  setup.period = config.live.period;
+  setup.body = scenario.uav.body;
+  setup.position = scenario.uav.start;
+  return setup;
+}
+
+LiveUpdates::LiveUpdates(Bus& bus, const VoxelMap& base, const LiveSetup& setup)
+    : bus_(bus),
+      setup_(setup),
+      map_(base, setup.classes, setup.range),
+      intake_(bus),
+      version_(base.version),
+      next_map_(bus.clock().now()) {
+  bus.subscribe(channels::kUavState, [this](const UavState& state) { setup_.position = state.motion.p; });
+}
+
+void LiveUpdates::add_scans(UTime now) {
+  if (intake_.add_to(map_, now) == 0) return;
+  if (!last_scan_) map_.free_start(setup_.body, setup_.position);
+  last_scan_ = now;
+}
+
+std::optional<VoxelMap> LiveUpdates::take_new(UTime now) {
+  if (now < next_map_) return std::nullopt;
+  next_map_ = now + setup_.period;
+  VoxelMap map = map_.map(setup_.body, setup_.position);
+  if (map.version == std::exchange(version_, map.version)) return std::nullopt;
+  return map;
+}
+
+std::string LiveUpdates::waiting_for() const {
+  if (!last_scan_) return "a scan on POINT_CLOUD or DEPTH_IMAGE";
+  const Duration silence = bus_.clock().now() - *last_scan_;
+  if (silence < kScanSilence) return "";
+  return fmt::format("scans: the last one came {:.0f} s ago", silence.seconds());
+}
+
+}  // namespace tern

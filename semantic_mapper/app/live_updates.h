@@ -1,0 +1,41 @@
+// The live part of tern-mapper: scans and the vehicle's position in, new versions of the map out.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "runtime/bus.h"
+#include "semantic_mapper/app/live_intake.h"
+#include "semantic_mapper/app/live_setup.h"
+
+namespace tern {
+
+/// After this time without a scan, HEARTBEAT says so.
+inline constexpr Duration kScanSilence{2'000'000};
+
+/// Receives scans, and gives a new version of the map when they have changed it.
+class LiveUpdates {
+ public:
+  /// @param base  the map of the files. @throws std::invalid_argument as LiveMap's constructor
+  LiveUpdates(Bus& bus, const VoxelMap& base, const LiveSetup& setup);
+
+  /// Adds the scans that are complete.
+  void add_scans(UTime now);
+  /// Returns the map if it differs from the version given last. Not more often than once per period.
+  std::optional<VoxelMap> take_new(UTime now);
+  [[nodiscard]] UTime next_map() const { return next_map_; }
+  [[nodiscard]] UTime next_scan() const { return intake_.next_complete(); }
+  /// The text for HEARTBEAT while scans are missing; "" while they come.
+  [[nodiscard]] std::string waiting_for() const;
+
+ private:
+  Bus& bus_;
+  LiveSetup setup_;
+  LiveMap map_;
+  LiveIntake intake_;
+  std::uint64_t version_;
+  UTime next_map_;
+  std::optional<UTime> last_scan_;
+};
+
+}  // namespace tern

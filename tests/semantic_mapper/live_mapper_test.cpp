@@ -1,0 +1,165 @@
+// tern-mapper with a live map: scans in, versions of the map out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "runtime/virtual_runner.h"
+#include "semantic_mapper/app/live_intake.h"
+#include "semantic_mapper/app/mapper_node.h"
+#include "tests/support/voxel_maps.h"
+
+namespace tern {
+namespace {
+
+using testing::HasSubstr;
+
+/// A live mapper over 40 × 40 × 8 unknown voxels of 0.25 m, and a test that receives its maps.
+class LiveMapperTest : public ::testing::Test {
+ protected:
+  LiveMapperTest() {
+    VoxelMap base = support::free_map({40, 40, 8});
+    std::fill(base.labels.begin(), base.labels.end(), VoxelLabel::Unknown);
+    base.version = base.compute_version();
+    LiveSetup setup;
+    setup.period = Duration{500'000};
+    setup.body.vertices = Points::Zero(3, 1);
+    setup.body.radius = 0.3;
+    setup.position = Vec3(1, 5, 1);
+    node_ = &runner_.start("tern-mapper", [&](Bus& bus) { return std::make_unique<MapperNode>(bus, base, setup); });
+    runner_.observer().subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) {
+      const auto done = assembler_.add(chunk);
+      ASSERT_TRUE(done) << done.error().message;
+      if (*done) maps_.push_back({runner_.now(), assembler_.take()});
+    });
+  }
+
+  void run(double seconds) { runner_.run(runner_.now() + Duration::from_seconds(seconds)); }
+
+  /// A wall across x, seen from (1, 5, 1).
+  [[nodiscard]] CloudScan wall(double x) const {
+    CloudScan scan;
+    scan.at = runner_.now();
+    scan.sensor_position = Vec3(1, 5, 1);
+    for (double y = 3.1; y < 7.0; y += 0.1) {
+      for (double z = 0.1; z < 2.0; z += 0.1) {
+        scan.points.push_back({(Vec3(x, y, z) - scan.sensor_position).cast<float>(), 0});
+      }
+    }
+    return scan;
+  }
+  [[nodiscard]] VoxelLabel label_at(const Vec3& p) const {
+    const VoxelMap& map = maps_.back().map;
+    return map.labels[idx(map.grid.index(map.grid.cell_of(p)))];
+  }
+
+  struct Arrival {
+    UTime at;
+    VoxelMap map;
+  };
+  VirtualRunner runner_;
+  const Node* node_ = nullptr;
+  MapAssembler assembler_;
+  std::vector<Arrival> maps_;
+};
+
+TEST_F(LiveMapperTest, ACloudBecomesOccupiedAndFreeVoxels) {
+  run(0.1);
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("a scan on POINT_CLOUD or DEPTH_IMAGE"));
+  ASSERT_EQ(maps_.size(), 1u) << "the map of the files comes first";
+  for (int i = 0; i < 3; ++i) {
+    runner_.observer().publish(channels::kPointCloud, wall(6.1));
+    run(0.1);
+  }
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  run(0.6);
+  ASSERT_GE(maps_.size(), 2u);
+  EXPECT_EQ(label_at({6.1, 5, 1}), VoxelLabel::Occupied);
+  EXPECT_EQ(label_at({4, 5, 1}), VoxelLabel::Free);
+  EXPECT_EQ(label_at({8, 5, 1}), VoxelLabel::Unknown);
+  const std::size_t versions = maps_.size();
+  run(1.9);
+  EXPECT_EQ(maps_.size(), versions) << "without a change there is no version";
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("scans: the last one came"));
+}
+
+TEST_F(LiveMapperTest, WhatGoesAwayIsFreedWithinTwoSecondsOfScans) {
+  for (int i = 0; i < 50; ++i) {
+    runner_.observer().publish(channels::kPointCloud, wall(4.1));
+    run(0.1);
+  }
+  ASSERT_EQ(label_at({4.1, 5, 1}), VoxelLabel::Occupied);
+  for (int i = 0; i < 20; ++i) {
+    runner_.observer().publish(channels::kPointCloud, wall(8.1));
+    run(0.1);
+  }
+  EXPECT_EQ(label_at({4.1, 5, 1}), VoxelLabel::Free);
+  EXPECT_EQ(label_at({8.1, 5, 1}), VoxelLabel::Occupied);
+  for (std::size_t i = 1; i < maps_.size(); ++i) EXPECT_GE((maps_[i].at - maps_[i - 1].at).us, 500'000);
+}
+
+TEST_F(LiveMapperTest, MessagesOfOneTimeAreOneScan) {
+  CloudScan near = wall(4.1);
+  CloudScan far = wall(8.1);  // its rays pass the voxels of the other part
+  run(0.3);
+  for (int i = 0; i < 20; ++i) {
+    near.at = far.at = runner_.now();
+    runner_.observer().publish(channels::kPointCloud, near);
+    runner_.observer().publish(channels::kPointCloud, far);
+    run(0.1);
+  }
+  run(0.6);
+  EXPECT_EQ(label_at({4.1, 5, 1}), VoxelLabel::Occupied);
+  EXPECT_EQ(label_at({8.1, 5, 1}), VoxelLabel::Occupied);
+}
+
+TEST_F(LiveMapperTest, ADepthImageBecomesOccupiedAndFreeVoxels) {
+  DepthImage image;
+  image.sensor_position = Vec3(1, 5, 1);
+  image.q_WC = Eigen::Vector4d(0.5, -0.5, 0.5, -0.5);  // z to the world's x, x to −y, y to −z
+  image.fx = image.fy = 40.0;
+  image.width = 41;
+  image.cx = 20.0;
+  image.cy = 5.0;
+  image.depths.assign(41 * 11, 5'100);
+  image.depths[5 * 41 + 20] = 0;  // no measurement
+  image.at = runner_.now();
+  runner_.observer().publish(channels::kDepthImage, image);
+  run(1.2);
+  EXPECT_EQ(label_at({6.1, 5.5, 1}), VoxelLabel::Occupied);
+  EXPECT_EQ(label_at({6.1, 3.0, 0.6}), VoxelLabel::Occupied);
+  EXPECT_EQ(label_at({3, 5, 1}), VoxelLabel::Free);
+  EXPECT_EQ(label_at({9, 5, 1}), VoxelLabel::Unknown);
+}
+
+TEST(LiveIntake, PlacesPixelsByThePinholeModel) {
+  DepthImage image;
+  image.sensor_position = Vec3(10, 20, 30);
+  image.q_WC = Eigen::Vector4d(0.5, -0.5, 0.5, -0.5);
+  image.fx = 100.0;
+  image.fy = 200.0;
+  image.cx = 1.0;
+  image.cy = 7.0;
+  image.width = 2;
+  image.first_row = 7;
+  image.depths = {0, 2'000, 1'000, -5};
+  const Scan scan = scan_of(image);
+  ASSERT_EQ(scan.points.size(), 2u);
+  EXPECT_LT((scan.points[0].position - Vec3(12, 20, 30)).norm(), 1e-12) << "on the optical axis, along x";
+  EXPECT_LT((scan.points[1].position - Vec3(11, 20.01, 29.995)).norm(), 1e-12) << "left of it and below";
+}
+
+TEST(LiveIntake, PointsThatAreNotFiniteGiveNone) {
+  CloudScan cloud;
+  cloud.sensor_position = Vec3(1, 2, 3);
+  cloud.points = {{Eigen::Vector3f(1, 0, 0), 6}, {Eigen::Vector3f(std::nanf(""), 0, 0), 0}};
+  const Scan scan = scan_of(cloud);
+  ASSERT_EQ(scan.points.size(), 1u);
+  EXPECT_EQ(scan.points[0].position, Vec3(2, 2, 3));
+  EXPECT_EQ(scan.points[0].class_number, 6);
+}
+
+}  // namespace
+}  // namespace tern

@@ -1,0 +1,93 @@
+// A flight through a hall that only a lidar knows: the map is made in flight.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "campaign/virtual_system.h"
+#include "messages/channels.h"
+#include "simulator/app/simulator_node.h"
+#include "tests/support/temp_folder.h"
+
+namespace tern {
+namespace {
+
+constexpr const char* kHall = R"(
+world: {obstacles: []}
+uav:
+  start: [0, 0, 1.5]
+  goal: [24, 0, 1.5]
+  flight_box: {min: [-2, -8, 0.2], max: [28, 8, 3.8]}
+  limits: {v_max: 3}
+  body: {radius: 0.3}
+mapper: {live: {enabled: true, max_range_m: 12}}
+planner: {unknown: obstacle}
+)";
+constexpr double kBodyRadius = 0.3;
+
+/// Two walls from side to side, with a door at opposite ends: no straight way leads through both.
+const std::vector<Box> kWalls{Box(Vec3(8.1, -8, 0), Vec3(8.4, 5.1, 4)), Box(Vec3(16.1, -5.1, 0), Vec3(16.4, 8, 4))};
+
+/// Where the ray from p along d enters a wall; nullopt if it meets none.
+std::optional<double> distance_along(const Vec3& p, const Vec3& d) {
+  std::optional<double> nearest;
+  for (const Box& wall : kWalls) {
+    const Vec3 first = (wall.min() - p).cwiseQuotient(d);
+    const Vec3 second = (wall.max() - p).cwiseQuotient(d);
+    const double enter = first.cwiseMin(second).maxCoeff();
+    const double leave = first.cwiseMax(second).minCoeff();
+    if (enter > 0.0 && enter < leave && (!nearest || enter < *nearest)) nearest = enter;
+  }
+  return nearest;
+}
+
+/// The cloud of a lidar with 360 × 41 beams; beams without a return end far away.
+std::vector<CloudScan> scan_from(const Vec3& p, UTime at) {
+  std::vector<CloudScan> parts(1);
+  for (int i = 0; i < 360; ++i) {
+    for (int k = -20; k <= 20; ++k) {
+      const double azimuth = (i + 0.5) * std::numbers::pi / 180.0;
+      const double elevation = (1.5 * k + 0.5) * std::numbers::pi / 180.0;
+      const Vec3 d(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                   std::sin(elevation));
+      if (std::ssize(parts.back().points) == kMaxCloudPointsPerMessage) parts.emplace_back();
+      parts.back().points.push_back({(d * distance_along(p, d).value_or(1e3)).cast<float>(), 0});
+    }
+  }
+  for (CloudScan& part : parts) {
+    part.at = at;
+    part.sensor_position = p;
+  }
+  return parts;
+}
+
+TEST(LiveMapFlight, TheVehicleFindsItsWayThroughAHallThatOnlyItsLidarKnows) {
+  const TempFolder folder;
+  std::ofstream(folder.file("hall.yaml")) << kHall;
+  VirtualSystem system(folder.file("hall.yaml"), {});
+  VirtualRunner& runner = system.runner();
+  Vec3 position(0, 0, 1.5);
+  double clearance = 1e9;
+  runner.observer().subscribe(channels::kVehicleTruth, [&](const UavState& state) {
+    position = state.motion.p;
+    if (std::getenv("TRACE")) std::printf("P %.2f %.2f %.2f\n", position.x(), position.y(), position.z());
+    for (const Box& wall : kWalls) clearance = std::min(clearance, wall.exteriorDistance(position) - kBodyRadius);
+  });
+  const SimulatorNode& simulator = system.simulator();
+  for (int i = 0; i < 600 && !simulator.result(); ++i) {
+    for (const CloudScan& part : scan_from(position, runner.now())) {
+      runner.observer().publish(channels::kPointCloud, part);
+    }
+    runner.run(runner.now() + Duration{100'000}, [&] { return simulator.result().has_value(); });
+  }
+  ASSERT_TRUE(simulator.result());
+  EXPECT_EQ(simulator.result()->outcome, FlightOutcome::Reached) << simulator.result()->detail;
+  EXPECT_GT(clearance, 0.0) << "the nearest it came to a wall, m";
+  EXPECT_GT(simulator.result()->path_length_m, 26.0) << "through both doors";
+}
+
+}  // namespace
+}  // namespace tern
