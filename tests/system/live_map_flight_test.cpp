@@ -24,7 +24,7 @@ uav:
   limits: {v_max: 3}
   body: {radius: 0.3}
 mapper: {live: {enabled: true, max_range_m: 12}}
-planner: {unknown: obstacle}
+executor: {tube_m: 0.25}
 )";
 constexpr double kBodyRadius = 0.3;
 
@@ -73,7 +73,6 @@ TEST(LiveMapFlight, TheVehicleFindsItsWayThroughAHallThatOnlyItsLidarKnows) {
   double clearance = 1e9;
   runner.observer().subscribe(channels::kVehicleTruth, [&](const UavState& state) {
     position = state.motion.p;
-    if (std::getenv("TRACE")) std::printf("P %.2f %.2f %.2f\n", position.x(), position.y(), position.z());
     for (const Box& wall : kWalls) clearance = std::min(clearance, wall.exteriorDistance(position) - kBodyRadius);
   });
   const SimulatorNode& simulator = system.simulator();
