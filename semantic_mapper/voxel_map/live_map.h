@@ -49,8 +49,8 @@ class LiveMap {
   /// Adds a scan. Points of a scan without classes are occupied, of class "unlabelled". O(points · range/resolution).
   void add(const Scan& scan);
 
-  /// Makes the voxels free that no ray met and that lie within kStartMargin voxels of the box around the body at p: the
-  /// vehicle starts there, and its sensors may not see above and below it.
+  /// Frees the unseen voxels within kStartMargin voxels of the box around the body at p. The vehicle starts there, and
+  /// its sensors may not see above and below it.
   void free_start(const Body& body, const Vec3& p);
   /// Returns the map as it is now. Occupied voxels in which the body at p stands are free (voxels_stood_in). O(voxels).
   [[nodiscard]] VoxelMap map(const Body& body, const Vec3& p) const;
