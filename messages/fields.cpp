@@ -137,6 +137,15 @@ void FieldReader::batch(const char* name, const tern_msgs::batch_t& m, BatchHead
   leave();
 }
 
+bool FieldReader::is_placed(const tern_msgs::vec3_t& position) {
+  FieldReader alone;
+  alone.enter(list_, index_);
+  Vec3 p;
+  alone.position("position", position, p);
+  if (left_out_field_.empty()) left_out_field_ = alone.refused_field();
+  return alone.ok();
+}
+
 std::string FieldReader::field(const char* part) const {
   std::string text = list_;
   if (!text.empty() && index_ != kNoIndex) text += "[" + std::to_string(index_) + "]";

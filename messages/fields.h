@@ -82,6 +82,10 @@ class FieldWriter {
   void list(const char*, std::vector<M>& m, const std::vector<T>& values, const Each& each) {
     for (const T& value : values) each(m.emplace_back(), value);
   }
+  template <class M, class T, class Each>
+  void list_of_placed(const char* name, std::vector<M>& m, const std::vector<T>& values, const Each& each) {
+    list(name, m, values, each);
+  }
 };
 
 /// Gives out a flat array in consecutive slices.
@@ -161,6 +165,22 @@ class FieldReader {
     }
     leave();
   }
+  /// As list(), for elements with a `position`. An element whose position is refused is at no place: it is left out and
+  /// counted, and the message may be accepted without it. If all are at no place, the message is refused.
+  template <class M, class T, class Each>
+  void list_of_placed(const char* name, const std::vector<M>& m, std::vector<T>& values, const Each& each) {
+    values.reserve(m.size());
+    for (std::size_t i = 0; i < m.size(); ++i) {
+      enter(name, i);
+      if (is_placed(m[i].position)) each(m[i], values.emplace_back());
+    }
+    left_out_ = static_cast<std::int32_t>(m.size() - values.size());
+    if (values.empty() && left_out_ > 0) {
+      enter(name, 0);
+      each(m[0], values.emplace_back());
+    }
+    leave();
+  }
 
   /// The fields that are read next are those of element `index` of a list, until leave().
   void enter(const char* list, std::size_t index) {
@@ -198,8 +218,11 @@ class FieldReader {
   /// True if every field so far was accepted.
   [[nodiscard]] bool ok() const { return !refused_; }
   /// The field with the reason that accept() returns, and its value: "detections[1].position.x is nan"; or the broken
-  /// rule. Empty if nothing was refused, or a field without a name.
-  [[nodiscard]] const std::string& refused_field() const { return refused_field_; }
+  /// rule. If the message is accepted, the field for which an element was left out. Empty if nothing was refused, or a
+  /// field without a name.
+  [[nodiscard]] const std::string& refused_field() const { return refused_ ? refused_field_ : left_out_field_; }
+  /// The number of elements that were left out.
+  [[nodiscard]] std::int32_t left_out() const { return left_out_; }
   /// Returns the value, or the reason for its refusal.
   template <class T>
   [[nodiscard]] tl::expected<T, Rejection> accept(T value) const {
@@ -224,11 +247,15 @@ class FieldReader {
   }
   static constexpr std::size_t kNoIndex = std::numeric_limits<std::size_t>::max();
   [[nodiscard]] std::string field(const char* part) const;
+  /// Whether the element that is being read has this position; notes the first one that has none.
+  bool is_placed(const tern_msgs::vec3_t& position);
   void describe(const char* part, double value);
   void describe(const char* part, std::int64_t value);
 
   std::optional<Rejection> refused_;
   std::string refused_field_;
+  std::string left_out_field_;
+  std::int32_t left_out_ = 0;
   const char *list_ = "", *name_ = "";  // of the field that is being read
   std::size_t index_ = 0;
 };

@@ -72,17 +72,27 @@ tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes) {
   }
 }
 
+/// Returns a reader that has read the message, or has read nothing of one whose form is refused.
+template <class T>
+wire::FieldReader reader_of(std::span<const std::uint8_t> bytes) {
+  wire::FieldReader read;
+  try {
+    if (const auto message = wire::read_message<T>(bytes)) wire::read_fields<T>(read, *message);
+  } catch (const std::exception&) {  // the same
+    return {};
+  }
+  return read;
+}
+
 template <class T>
 std::string refused_field(std::span<const std::uint8_t> bytes) {
-  try {
-    const auto message = wire::read_message<T>(bytes);
-    if (!message) return "";
-    wire::FieldReader read;
-    wire::read_fields<T>(read, *message);
-    return read.refused_field();
-  } catch (const std::exception&) {  // the same
-    return "";
-  }
+  return reader_of<T>(bytes).refused_field();
+}
+
+template <class T>
+std::int32_t left_out_elements(std::span<const std::uint8_t> bytes) {
+  const wire::FieldReader read = reader_of<T>(bytes);
+  return read.ok() ? read.left_out() : 0;
 }
 
 }  // namespace tern

@@ -18,7 +18,9 @@ struct wire::Form<ObservationSet> {
     io.integer("sensor_id", m.sensor_id, set.sensor_id, 0, std::numeric_limits<std::int32_t>::max());
     io.number("range", m.range, set.range_m, 0.0, kMaxCoordinate);
     io.position("sensor_position", m.sensor_position, set.sensor_position);
-    io.list("detections", m.detections, set.detections, [&io](auto& d, auto& detection) {
+    // A detection at no place is no obstacle. One at a place with a wrong size or variance is: without it, the vehicle
+    // would fly through what is there, so the whole set is refused.
+    io.list_of_placed("detections", m.detections, set.detections, [&io](auto& d, auto& detection) {
       io.position("position", d.position, detection.position);
       io.extents("half_extents", d.half_extents, detection.half_extents);
       io.vec3("variance", d.variance, detection.variance, 0.0, kMaxVariance);
@@ -38,5 +40,6 @@ struct wire::Form<ObservationSet> {
 template Bytes encode(const ObservationSet& value);
 template tl::expected<ObservationSet, Rejection> decode(std::span<const std::uint8_t> bytes);
 template std::string refused_field<ObservationSet>(std::span<const std::uint8_t> bytes);
+template std::int32_t left_out_elements<ObservationSet>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

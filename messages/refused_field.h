@@ -1,4 +1,4 @@
-// Why a message is refused, in words.
+// What a receiver refuses of a message, in words and numbers.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,15 @@
 
 namespace tern {
 
-/// Returns the field for which decode<T>() refuses a message, with its value: "control_points[3].x is nan"; or the rule
-/// between fields that the message breaks. Empty if decode() accepts it, or refuses its form, or the field has no name.
+/// Returns the field for which decode<T>() refuses a message or leaves an element out, with its value:
+/// "control_points[3].x is nan"; or the rule between fields that the message breaks. Empty if decode() accepts the
+/// whole message, or refuses its form, or the field has no name.
 template <class T>
 std::string refused_field(std::span<const std::uint8_t> bytes);
+
+/// Returns how many elements of a message decode<T>() leaves out, while it accepts the others. Only an ObservationSet
+/// may lose some: its detections whose position is refused (docs/decisions/parts-of-messages.md).
+template <class T>
+std::int32_t left_out_elements(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

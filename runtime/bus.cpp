@@ -33,8 +33,8 @@ void check_name(std::string_view name) {
 class LogLimiter {
  public:
   /// @return how many events this line stands for, or nullopt if it is too soon.
-  std::optional<std::int64_t> admit(UTime now) {
-    ++pending_;
+  std::optional<std::int64_t> admit(UTime now, std::int64_t events = 1) {
+    pending_ += events;
     if (last_ && now - *last_ < kLogInterval && now >= *last_) return std::nullopt;
     last_ = now;
     return std::exchange(pending_, 0);
@@ -45,22 +45,22 @@ class LogLimiter {
   std::int64_t pending_ = 0;
 };
 
-/// Counts refused messages in spans of a second, for HEARTBEAT.
+/// Counts refusals in spans of a second, for HEARTBEAT.
 class RefusalRate {
  public:
   /// @param why  in words
-  void add(UTime now, std::string why) {
+  void add(UTime now, std::string why, std::int64_t times) {
     if (now - begun_ > kSenderTroubleReported || count_ == 0) *this = {};
     if (count_ == 0) begun_ = now;
-    ++count_;
+    count_ += times;
     last_ = now;
     why_ = std::move(why);
     if (now - begun_ < kLogInterval) return;
-    per_second_ = static_cast<double>(count_ - 1) / (now - begun_).seconds();
-    count_ = 1;
+    per_second_ = static_cast<double>(count_ - times) / (now - begun_).seconds();
+    count_ = times;
     begun_ = now;
   }
-  /// @return "30/s refused: detections[1].position.x is nan"; empty unless several messages were refused, and recently.
+  /// @return "30/s refused: position.y is nan"; empty unless something was refused several times, and recently.
   [[nodiscard]] std::string text(UTime now) const {
     constexpr int kSeveral = 3;
     if (now - last_ > kSenderTroubleReported) return "";
@@ -80,6 +80,11 @@ std::string describe(std::string_view channel, Rejection reason, std::span<const
   std::string field;
   visit_channel(channel, [&]<class T>(const Channel<T>&) { field = refused_field<T>(bytes); });
   return field.empty() ? to_string(reason) : field;
+}
+
+/// How many elements of an accepted message were left out.
+std::int32_t left_out(std::string_view channel, std::span<const std::uint8_t> bytes) {
+  return channel == channels::kObstacleObservations.name ? left_out_elements<ObservationSet>(bytes) : 0;
 }
 
 }  // namespace
@@ -102,6 +107,24 @@ struct Bus::ChannelState {
   UTime described_at;                  ///< … and when
   std::deque<Encoder> unsent;
   UTime due = kNever;
+
+  /// Sets `description`. Naming the field decodes the message again, so in a flood it is done once per interval and
+  /// reason.
+  void describe_delivered(Rejection reason, std::span<const std::uint8_t> delivered, UTime now) {
+    if (described == reason && now - described_at < kLogInterval && now >= described_at) return;
+    description = describe(name, reason, delivered);
+    described = reason;
+    described_at = now;
+  }
+  /// Counts the refusal of a message, or of elements of an accepted one.
+  void count_refused(Rejection reason, UTime now, const char* what, std::int64_t times) {
+    counters.rejected[static_cast<int>(reason)] += times;
+    if (reason != Rejection::Sender && reason != Rejection::Future) refused.add(now, why, times);
+    if (reason == Rejection::Repeated) return;  // a network may duplicate messages
+    if (const auto refusals = reject_log.admit(now, times)) {
+      log::warn("{}: refused {}: {} ({} refused since the last report)", wire_name, what, why, *refusals);
+    }
+  }
 };
 
 struct Bus::State {
@@ -271,25 +294,14 @@ void Bus::reject(const std::string& name, Rejection reason) {
   ChannelState& channel = state_->channel(name);
   channel.admitted = false;
   if (std::exchange(channel.counted, true)) return;
-  // Naming the field decodes the message again, so in a flood it is done once per interval and reason.
-  const UTime now = clock_.now();
-  if (channel.described != reason || now - channel.described_at >= kLogInterval || now < channel.described_at) {
-    channel.description = describe(name, reason, state_->delivered);
-    channel.described = reason;
-    channel.described_at = now;
-  }
+  channel.describe_delivered(reason, state_->delivered, clock_.now());
   channel.why = channel.description;
   count_refused(channel, reason);
 }
 
 /// @pre the mutex is held
 void Bus::count_refused(ChannelState& channel, Rejection reason) {
-  ++channel.counters.rejected[static_cast<int>(reason)];
-  if (reason != Rejection::Sender && reason != Rejection::Future) channel.refused.add(clock_.now(), channel.why);
-  if (reason == Rejection::Repeated) return;  // a network may duplicate messages
-  if (const auto times = channel.reject_log.admit(clock_.now())) {
-    log::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, channel.why, *times);
-  }
+  channel.count_refused(reason, clock_.now(), "a message", 1);
 }
 
 bool Bus::admits(const std::string& name, const MessageName& message, UTime claimed) {
@@ -305,6 +317,11 @@ bool Bus::admits(const std::string& name, const MessageName& message, UTime clai
     count_refused(channel, *refusal);
   } else {
     ++channel.counters.received;
+    if (const std::int32_t elements = left_out(name, state_->delivered); elements > 0) {
+      channel.describe_delivered(Rejection::Number, state_->delivered, clock_.now());
+      channel.why = channel.description + " (the others are used)";
+      channel.count_refused(Rejection::Number, clock_.now(), "a part of a message", elements);
+    }
   }
   return channel.admitted;
 }

@@ -33,7 +33,7 @@ PlanningWorld WorldIntake::snapshot() const {
 std::string WorldIntake::missing() const {
   const PlanningWorld world = snapshot();
   if (!world.predictions) return "predictions";
-  if (!world.map) return pending_map_ ? "the map's fields (in preparation)" : "a semantic map";
+  if (!world.map) return map_progress_.is_complete() ? "the map's fields (in preparation)" : map_progress_.missing();
   if (!newest_goal_) return "a goal";
   if (!world.goal) return "the goal's distance field (in preparation)";
   return "";
@@ -82,6 +82,7 @@ void WorldIntake::on_map(const MapChunk& chunk) {
     log::warn("semantic map refused: {}", complete.error().message);
     return;
   }
+  map_progress_.add(chunk);
   if (*complete) pending_map_ = assembler_.take();
 }
 

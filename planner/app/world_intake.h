@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/world/map_progress.h"
 #include "core/world/scenario.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/worker.h"
@@ -70,6 +71,7 @@ class WorldIntake {
   const std::vector<NamedPlace> places_;
   BatchCollector<TrackSet> batches_;
   MapAssembler assembler_;
+  MapProgress map_progress_;
   StaticTracks statics_;
   std::optional<VoxelMap> pending_map_;
   std::optional<Goal> newest_goal_;

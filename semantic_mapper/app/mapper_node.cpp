@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "core/world/map_progress.h"
+#include "core/world/message_limits.h"
 #include "messages/codec.h"
 #include "runtime/log.h"
 #include "semantic_mapper/app/live_updates.h"
@@ -15,6 +17,8 @@
 namespace tern {
 namespace {
 
+static_assert(kMaxMessageBytes * std::int64_t{1'000'000} / kMapBytesPerSecond <= kMapChunkTime.us);
+
 /// Returns the size of a chunk on the wire, to within a few bytes.
 std::int64_t bytes_of(const MapChunk& chunk) {
   constexpr std::int64_t kFixedBytes = 120;
@@ -22,6 +26,17 @@ std::int64_t bytes_of(const MapChunk& chunk) {
   std::int64_t bytes = kFixedBytes + kRunBytes * static_cast<std::int64_t>(chunk.runs.size());
   for (const std::string& name : chunk.class_names) bytes += 4 + static_cast<std::int64_t>(name.size());
   return bytes;
+}
+
+/// Returns how long a rotation takes, in words; "" if it takes no longer than kMapSilence.
+std::string rotation_text(const std::vector<MapChunk>& chunks) {
+  std::int64_t bytes = 0;
+  for (const MapChunk& chunk : chunks) bytes += bytes_of(chunk);
+  const Duration rotation{bytes * 1'000'000 / kMapBytesPerSecond};
+  if (rotation <= kMapSilence) return "";
+  return fmt::format("the map of {:.0f} MB in {} chunks takes {:.0f} s, at {:g} MB/s",
+                     static_cast<double>(bytes) * 1e-6, chunks.size(), rotation.seconds(),
+                     static_cast<double>(kMapBytesPerSecond) * 1e-6);
 }
 
 std::array<std::int64_t, kVoxelLabels> count_labels(const VoxelMap& map) {
@@ -36,6 +51,7 @@ MapperNode::MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSe
     : bus_(bus), rotation_began_(bus.clock().now()), next_(rotation_began_), earliest_(rotation_began_) {
   if (live) live_ = std::make_unique<LiveUpdates>(bus, map, *live);
   publish(map);
+  if (!text_.empty()) log::info("{}", text_);
 }
 
 MapperNode::~MapperNode() = default;
@@ -47,6 +63,7 @@ void MapperNode::publish(const VoxelMap& map) {
         fmt::format("the map takes {} chunks (limit {}): give smaller extents or a coarser resolution", chunks_.size(),
                     kMaxMapChunks));
   }
+  text_ = rotation_text(chunks_);
   at_ = 0;
   next_ = earliest_;
 }
@@ -75,7 +92,8 @@ void MapperNode::step(UTime now) {
 
 NodeHealth MapperNode::health() const {
   const std::string waiting_for = live_ ? live_->waiting_for() : "";
-  return {waiting_for.empty() ? ProcessState::Ready : ProcessState::Waiting, waiting_for};
+  if (!waiting_for.empty()) return {ProcessState::Waiting, waiting_for};
+  return {ProcessState::Ready, text_};
 }
 
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {

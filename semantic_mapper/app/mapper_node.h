@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/world/vehicle.h"
@@ -25,6 +26,7 @@ class LiveUpdates;
 
 /// Publishes the chunks of a map in rotation. Chunks are at least kPacing apart, and their rate is at most
 /// kMapBytesPerSecond. A small map is therefore complete once a second; a large one is repeated without pause.
+/// HEARTBEAT says how long a rotation takes if it takes longer than kMapSilence.
 ///
 /// A live map changes by scans (LiveMap). A changed map is published at once as a new version, once per period at most.
 /// Each version is sent whole before the next one begins, so every receiver completes it.
@@ -44,6 +46,7 @@ class MapperNode final : public Node {
 
   Bus& bus_;
   std::vector<MapChunk> chunks_;
+  std::string text_;    // for HEARTBEAT
   std::size_t at_ = 0;  // index of the next chunk
   UTime rotation_began_;
   UTime next_;

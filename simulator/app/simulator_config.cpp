@@ -72,8 +72,9 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
       section.text("wait_for", "tern-executor, tern-predictor, tern-mapper, tern-planner",
                    "processes that must be ready before world time starts, separated by spaces or commas; `none`");
   config.wait_for = needed == "none" ? std::vector<std::string>{} : split_words(needed);
-  config.wait = Duration::from_seconds(section.number("wait_s", config.wait.seconds(), Range::positive(3600.0),
-                                                      "longest wait for the processes of `wait_for`, s"));
+  config.wait = Duration::from_seconds(
+      section.number("wait_s", config.wait.seconds(), Range::positive(3600.0),
+                     "longest wait for the processes of `wait_for`, s; two rotations of the map are added"));
   config.max_clock_skew = Duration::from_seconds(section.number(
       "max_clock_skew_s", config.max_clock_skew.seconds(), Range::positive(10.0),
       "a process of `wait_for` is not ready if its clock differs by more than this from the vehicle's, s"));

@@ -56,7 +56,8 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
       config_(config),
       timeout_s_(flight_timeout_s(scenario)),
       gate_(config.wait_for, bus.epoch_us(), config.max_clock_skew),
-      give_up_at_(bus.clock().now() + config.wait),
+      begun_(bus.clock().now()),
+      give_up_at_(begun_ + config.wait),
       vehicle_(std::move(vehicle)),
       referee_(scenario, std::move(world), vehicle_->judged_limits()),
       broadcast_(bus, referee_.world(), config, bus.clock().now()),
@@ -137,7 +138,8 @@ void SimulatorNode::step(UTime now) {
 
 std::string SimulatorNode::missing(UTime now) const {
   std::string missing = gate_.missing(now);
-  return missing.empty() && needs_map_ ? "its map, for the referee" : missing;
+  if (!missing.empty() || !needs_map_) return missing;
+  return map_progress_.missing() + ", for the referee";
 }
 
 void SimulatorNode::wait_for_processes(UTime now) {
@@ -156,7 +158,7 @@ void SimulatorNode::wait_for_processes(UTime now) {
     }
   } else if (now >= give_up_at_) {
     FlightResult result = referee_.result_so_far();
-    result.detail = "not ready after " + std::to_string(config_.wait.us / 1'000'000) + " s: " + missing;
+    result.detail = fmt::format("not ready after {} s: {}", (give_up_at_ - begun_).us / 1'000'000, missing);
     end_flight(result, kExitNotReady, now);
   }
 }
@@ -171,6 +173,8 @@ void SimulatorNode::on_heartbeat(const Heartbeat& heartbeat) {
 void SimulatorNode::on_map(const MapChunk& chunk) {
   const Result<bool> complete = map_.add(chunk);
   if (!complete) return log::error("map {:016x}: {}", chunk.version, complete.error().message);
+  map_progress_.add(chunk);
+  give_up_at_ = std::max(give_up_at_, begun_ + config_.wait + map_progress_.rotation() * 2);
   if (!*complete) return;
   if (const auto taken = referee_.set_map(cover_with_boxes(map_.take(), false)); !taken) {
     return log::error("map {:016x} is not judged: {}", chunk.version, taken.error().message);

@@ -8,7 +8,7 @@
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
-#include "core/world/voxel_map.h"
+#include "core/world/map_progress.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 #include "simulator/app/simulator_config.h"
@@ -33,7 +33,8 @@ inline constexpr int kExitNotReady = 3;  ///< a required process was not ready i
 ///
 /// Waiting: all processes of config.wait_for must report Ready. If a mapper is among them, its map must be received,
 /// since the referee judges its occupied voxels. After config.wait the flight has failed: FLIGHT_RESULT names the
-/// missing processes, and the exit code is kExitNotReady.
+/// missing processes, and the exit code is kExitNotReady. The wait is longer by two rotations of the map: a process may
+/// join within a rotation, or lose a chunk.
 ///
 /// Ended: FLIGHT_RESULT is repeated for a second while the vehicle comes to rest. Then the exit code is 0, for every
 /// verdict.
@@ -87,10 +88,11 @@ class SimulatorNode final : public Node {
   SimulatorConfig config_;
   double timeout_s_;
   StartGate gate_;
-  UTime give_up_at_;
+  UTime begun_, give_up_at_;
   std::unique_ptr<Vehicle> vehicle_;
   Referee referee_;
   MapAssembler map_;
+  MapProgress map_progress_;
   bool needs_map_ = false;    ///< the flight waits for the mapper's map, for the referee
   WorldBroadcast broadcast_;  // of the referee's world
   std::optional<Goal> goal_;

@@ -28,8 +28,20 @@ TEST(RefusedField, NamesAFieldOfAnElementAndItsValue) {
   EXPECT_EQ(refused(set), "");
   set.detections[1].variance.y() = -1.0;
   EXPECT_EQ(refused(set), "detections[1].variance.y is -1");
-  set.detections[0].position.x() = kNaN;
-  EXPECT_EQ(refused(set), "detections[0].position.x is nan") << "the first one";
+  set.detections[0].half_extents.x() = kNaN;
+  EXPECT_EQ(refused(set), "detections[0].half_extents.x is nan") << "the first one";
+}
+
+TEST(RefusedField, NamesTheFirstElementThatIsLeftOut) {
+  ObservationSet set = two_detections();
+  set.detections.resize(4);
+  set.detections[1].position.z() = kNaN;
+  set.detections[2].position.x() = kNaN;
+  EXPECT_EQ(refused(set), "detections[1].position.z is nan");
+  EXPECT_EQ(left_out_elements<ObservationSet>(encode(set)), 2);
+  set.detections[3].half_extents.x() = -1.0;
+  EXPECT_EQ(refused(set), "detections[3].half_extents.x is -1") << "for this one the set is refused";
+  EXPECT_EQ(left_out_elements<ObservationSet>(encode(set)), 0);
 }
 
 TEST(RefusedField, NamesFieldsOutsideOfLists) {

@@ -174,6 +174,28 @@ TEST(Rejection, OfObservationSet) {
             "accepted");
 }
 
+TEST(Rejection, LeavesOutDetectionsThatAreAtNoPlaceAndAtMostAllButOne) {
+  const auto original = rich_message<ObservationSet>();
+  for (const double nowhere : {kNaN, kInfinity, 1.1e6}) {
+    auto set = original;
+    set.detections[1].position.y() = nowhere;
+    set.detections[1].variance.x() = kNaN;
+    const auto decoded = decode<ObservationSet>(encode(set));
+    ASSERT_TRUE(decoded);
+    auto others = original;
+    others.detections.erase(others.detections.begin() + 1);
+    EXPECT_EQ(words_of(*decoded), words_of(others));
+  }
+  EXPECT_EQ(after<ObservationSet>([](auto& s) {
+              for (Detection& detection : s.detections) detection.position.x() = kNaN;
+            }),
+            "Number")
+      << "a sensor that knows no place sees nothing, but does not say that nothing is there";
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.detections[1].variance.x() = kNaN; }), "Number")
+      << "without it, the vehicle would fly through what is there";
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[1].motion.pieces[0].coefficients(0, 0) = kNaN; }), "Number");
+}
+
 TEST(Rejection, OfTrackSet) {
   EXPECT_EQ(after<TrackSet>([](auto& s) { s.batch.set = 0; }), "Number");
   EXPECT_EQ(after<TrackSet>([](auto& s) { s.batch.count = kMaxBatches + 1; }), "Number");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -132,6 +133,18 @@ TEST_F(BadInput, DetectionsWithAbsurdVariances) {
       for (const Vec3& alpha : track.alpha) EXPECT_TRUE(alpha.allFinite() && alpha.minCoeff() >= 0.0);
     }
   }
+}
+
+TEST_F(BadInput, ADetectionAtNoPlaceCostsNoOther) {
+  const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  watch(2.0, [&](double t) {
+    return std::vector{detection_of(walker(t), kNoise, rng_), detection_of(Vec3(nan, nan, nan), kNoise, rng_)};
+  });
+  runner_.run(runner_.now() + Duration{100'000});
+  EXPECT_GE(held(walker, 0.5, 2.0, 1.0), 0.99);
+  EXPECT_EQ(refused(Rejection::Number), 60);
+  EXPECT_EQ(most_tracks(0.5, 2.0), 1U);
 }
 
 TEST_F(BadInput, TimesThatJump) {

@@ -190,6 +190,29 @@ TEST_F(BusTest, SaysWhichFieldIsRefusedAndHowOften) {
   EXPECT_EQ(bus.sender_troubles(), "");
 }
 
+TEST_F(BusTest, AMessageWithoutABadElementIsHandedOverAndTheElementIsCountedAndNamed) {
+  std::size_t heard_detections = 0;
+  for (int k = 0; k < 2; ++k) {
+    bus.subscribe(channels::kObstacleObservations,
+                  [&](const ObservationSet& m) { heard_detections += m.detections.size(); });
+  }
+  ObservationSet set;
+  set.detections.resize(4);
+  set.detections[1].position.x() = set.detections[3].position.x() = std::numeric_limits<double>::quiet_NaN();
+  for (int k = 0; k < 3; ++k) {
+    set.header = {{50, k + 1}, clock.now()};
+    const Bytes bytes = encode(set);
+    lcm->publish(channels::kObstacleObservations.name, bytes.data(), static_cast<unsigned>(bytes.size()));
+    settle();
+  }
+  const ChannelCounters counters = bus.counters()[channels::kObstacleObservations.name];
+  EXPECT_EQ(heard_detections, 2U * 3U * 2U);
+  EXPECT_EQ(counters.received, 3);
+  EXPECT_EQ(counters.rejected[static_cast<int>(Rejection::Number)], 6);
+  EXPECT_EQ(bus.sender_troubles(),
+            "OBSTACLE_OBSERVATIONS: 6 refused: detections[1].position.x is nan (the others are used)");
+}
+
 TEST_F(BusTest, SaysWhichNumberIsRepeated) {
   listen();
   for (int k = 0; k < 4; ++k) arrive(50, 1);

@@ -76,6 +76,16 @@ TEST_F(MapperNodeTest, ALargeMapGoesRoundAtItsShareOfTheNetwork) {
   EXPECT_GE(bytes, 9 * kMapBytesPerSecond) << "it uses its share";
 }
 
+TEST_F(MapperNodeTest, SaysHowLongALargeMapTakes) {
+  const auto text_of = [](const VoxelMap& map) {
+    VirtualRunner runner;
+    const Node& node = runner.start("tern-mapper", [&](Bus& bus) { return std::make_unique<MapperNode>(bus, map); });
+    return node.health().waiting_for;
+  };
+  EXPECT_EQ(text_of(ragged_map({60, 60, 20})), "");
+  EXPECT_EQ(text_of(ragged_map({200, 200, 30})), "the map of 4 MB in 76 chunks takes 4 s, at 1 MB/s");
+}
+
 TEST_F(MapperNodeTest, ALateJoinerGetsASmallMapWithinTwoSeconds) {
   const VoxelMap map = ragged_map({60, 60, 20});
   runner_.start("tern-mapper", [&](Bus& bus) { return std::make_unique<MapperNode>(bus, map); });
