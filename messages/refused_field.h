@@ -7,9 +7,9 @@
 
 namespace tern {
 
-/// Returns the field for which decode<T>() refuses a message or leaves an element out, with its value:
-/// "control_points[3].x is nan"; or the rule between fields that the message breaks. Empty if decode() accepts the
-/// whole message, or refuses its form, or the field has no name.
+/// Returns the field for which decode<T>() refuses a message or leaves an element out, "control_points[3].x is nan", or
+/// the rule between fields that the message breaks. Empty if decode() accepts the whole message, or refuses its form.
+/// Also empty if the field has no name.
 template <class T>
 std::string refused_field(std::span<const std::uint8_t> bytes);
 

@@ -221,7 +221,10 @@ class Explainer {
     const std::string body = tube > 0.0 ? fmt::format("the body with its tube of {:.1f} m", tube) : "the body";
     std::string text = fmt::format("{}: {} answers *{}*: ", held_, *most, to_string(reason));
     if (reason == PlanReason::StartInCollision) {
-      return text + "an obstacle's prediction covers the vehicle; smaller boxes or a better prediction would help";
+      return text + fmt::format(
+                        "an obstacle, its prediction or the map covers {}; {}a place farther away, smaller boxes or "
+                        "a better prediction would help",
+                        body, tube > 0.0 ? "a smaller executor.tube_m, " : "");
     }
     return text + fmt::format(
                       "no certified way for {} past the obstacles; more room, a smaller tube or body, or later "

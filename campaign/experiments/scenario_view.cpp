@@ -43,10 +43,11 @@ PlannedPath measured(std::vector<Vec3> points, const std::vector<Region>& region
   return way;
 }
 
-/// Returns the path, or the reason in words why there is none.
-Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map) {
+/// Returns the path, or the reason in words why there is none. @param body  with its tube
+Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map,
+                                 const Body& body) {
   const UavSpec& uav = view.scenario.uav;
-  const GoalFieldKey key{uav.goal, map->version, 0, body_box(uav.body), uav.flight_box};
+  const GoalFieldKey key{uav.goal, map->version, 0, body_box(body), uav.flight_box};
   const std::vector<Box> statics = static_boxes(view.world);
   const GoalField field = make_goal_field(key, map, statics, uav.start);
   auto points = field.path_from(uav.start);
@@ -156,19 +157,21 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
   view.map = fmt::format("{} x {} x {} voxels of {:g} m, occupied ones as {} boxes", map.grid.size.x(),
                          map.grid.size.y(), map.grid.size.z(), map.grid.resolution, view.occupied.size());
   planner.semantics = false;
-  const auto shortest = path_between(view, std::make_shared<const MapProducts>(map, planner));
   const double tube_m = document.root().section("executor").read<ExecutorConfig>().tube_m;
   const Body body = grown(view.scenario.uav.body, Vec3::Constant(tube_m));
+  const auto shortest = path_between(view, std::make_shared<const MapProducts>(map, planner), body);
   std::string around = around_the_start(view, body);
   if (around.empty()) around = voxel_at_the_start(view, map, body);
   const std::string late = late_sensor(simulator, read_predictor_config(document.root().section("predictor")), planner);
   if (!around.empty() || !shortest || !late.empty()) {
     const std::string tube = tube_m > 0.0 ? fmt::format(", with executor.tube_m {:g} around the body", tube_m) : "";
-    view.blocked = !around.empty() ? "the start lies in " + around + tube : !shortest ? shortest.error().message : late;
+    view.blocked = !around.empty() ? "the start lies in " + around + tube
+                   : !shortest     ? shortest.error().message + tube
+                                   : late;
     return view;
   }
   view.shortest = *shortest;
-  const auto weighted_path = weighed->semantic_paths ? path_between(view, weighed) : shortest;
+  const auto weighted_path = weighed->semantic_paths ? path_between(view, weighed, body) : shortest;
   if (weighed->semantic_paths && weighted_path) view.weighted = *weighted_path;
   return view;
 }

@@ -33,8 +33,9 @@ struct ScenarioView {
 };
 
 /// Reads the scenario and every process's section as a flight would, and makes world, map and paths. Paths are the
-/// planner's own, around static obstacles and occupied voxels, for this body and flight box. Moving obstacles are
-/// ignored. A goal also counts as unreachable if the sensor is too late for the planner (late_sensor()).
+/// planner's own, around static obstacles and occupied voxels, for this body with executor.tube_m, and this flight box.
+/// Moving obstacles are ignored. A goal also counts as unreachable if the sensor is too late for the planner
+/// (late_sensor()).
 /// @throws ConfigError for inputs that a flight would refuse
 ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64_t> seed);
 

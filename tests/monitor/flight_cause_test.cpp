@@ -166,6 +166,17 @@ TEST(FlightCause, OfNoPlanNamesTheCommonestReasonAndTheTube) {
   EXPECT_THAT(why.sentence, AllOf(HasSubstr("160 answers *infeasible*"), HasSubstr("tube of 0.3 m")));
 }
 
+TEST(FlightCause, OfAStartThatTheTubeCoversNamesTheTube) {
+  Story story;
+  story.fly_with(4, 12, 0.0, PlanReason::StartInCollision);
+  EXPECT_THAT(story.timeout().sentence,
+              AllOf(HasSubstr("160 answers *start in collision*"), HasSubstr("the map covers the body;")));
+  Story tubed;
+  tubed.request().tube = Vec3::Constant(0.3);
+  tubed.fly_with(4, 12, 0.0, PlanReason::StartInCollision);
+  EXPECT_THAT(tubed.timeout().sentence, HasSubstr("the body with its tube of 0.3 m; a smaller executor.tube_m"));
+}
+
 TEST(FlightCause, OfASlowMachineNamesAPaceThatIsHalfAsFast) {
   Story story;
   story.fly(0, 4, 0.5);

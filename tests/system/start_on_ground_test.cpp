@@ -50,6 +50,24 @@ INSTANTIATE_TEST_SUITE_P(Ground, StartOnGround,
                                            Start{"deep_in_its_voxels", 0.3, kScanned}, Start{"on_a_box", 0.3, kFloor}),
                          [](const auto& start) { return std::string(start.param.name); });
 
+/// The tube reaches into what the vehicle stands on or beside: the planner has no way to promise, and check says so.
+TEST(StartInTheTube, IsRefusedByTheCheckAndStandsForTheReasonThatItGives) {
+  for (const auto& [z, ground] : {std::pair(0.55, kScanned), std::pair(0.3, kFloor), std::pair(0.5, kFloor)}) {
+    const TempFolder folder;
+    FlightInputs inputs;
+    inputs.scenario_file = scenario_at(folder, z, ground);
+    inputs.overrides = {"executor.tube_m=0.3", "timeout_s=3"};
+    const std::string blocked = view_scenario(inputs, std::nullopt).blocked;
+    EXPECT_NE(blocked.find("with executor.tube_m 0.3 around the body"), std::string::npos) << z << ": " << blocked;
+    const VirtualFlight flight = fly_virtually(inputs.scenario_file, inputs.overrides);
+    EXPECT_EQ(flight.result.outcome, FlightOutcome::Timeout) << z;
+    EXPECT_GT(flight.reasons[static_cast<std::size_t>(PlanReason::StartInCollision)], 0) << z;
+    inputs.overrides = {"executor.tube_m=0.1"};
+    const bool is_clear = ground == kFloor && z == 0.5;
+    EXPECT_EQ(view_scenario(inputs, std::nullopt).shortest.has_value(), is_clear) << z;
+  }
+}
+
 TEST(StartInTheGround, IsRefusedByTheCheckAndEndsTheFlight) {
   for (const auto& [z, ground] : {std::pair(0.1, kScanned), std::pair(0.28, kFloor)}) {
     const TempFolder folder;
