@@ -1,4 +1,4 @@
-// What a receiver refuses of a message, in words and numbers.
+// Reasons for refusals: which field of a message a receiver refuses, and how many elements it leaves out.
 #pragma once
 
 #include <cstdint>

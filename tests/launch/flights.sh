@@ -286,6 +286,30 @@ after_a_stream_of_packets_that_crash_lcm_the_processes_fly() {
   nobody_left || fail "left: $(pgrep -af "$work/")"
 }
 
+# The file system of the record fills up in flight: a tmpfs of 1 MB, in mounts of this test's own.
+a_flight_whose_file_system_fills_up_is_told_as_incomplete() {
+  if [[ -z ${TERN_OWN_MOUNTS:-} ]]; then
+    TERN_OWN_MOUNTS=yes unshare -m bash "$root/tests/launch/flights.sh" "${FUNCNAME[0]}"
+    return
+  fi
+  local flown=0 audited=0
+  mkdir "$work/small"
+  mount -t tmpfs -o size=1m tmpfs "$work/small"
+  start_flight small/flight --count 10 --goal "20,-1,1"
+  wait "$flight" || flown=$?
+  cat "$work/small/flight.out"
+  "$TERN_BIN/tern-audit" "$work/small/flight" >"$work/audit" || audited=$?
+  cat "$work/audit"
+  [[ $flown == 5 && $(field small/flight outcome) == reached ]] || fail "exit code $flown, $(field small/flight outcome)"
+  [[ $(field small/flight recording) == "incomplete: "*"are not in the log: "*"No space left on device"* ]] ||
+    fail "the summary: $(field small/flight recording)"
+  expect "the page says so" has_text '^ *recording *incomplete: ' "$work/small/flight.out"
+  [[ $audited == 3 ]] || fail "the audit's exit code is $audited"
+  expect "the audit says from when to when" has_text '^INCOMPLETE: .* it reaches from .* s of a flight of ' "$work/audit"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+  umount "$work/small"
+}
+
 # An autopilot's flight is short, because take-off and landing take most of the time.
 autopilots=(--autopilot sim --count 10 --goal "12,-1,1")
 
