@@ -114,6 +114,25 @@ assert states > 500, states
 END
 }
 
+# has_the_speeds_of_its_states FLIGHT: top speed and stops of its summary are those of the velocities in its log.
+has_the_speeds_of_its_states() {
+  PYTHONPATH=$TERN_BIN/../python python3 - "$work/$1" <<'END' || fail "the summary's speeds are not those of VEHICLE_TRUTH"
+import json, math, struct, sys, tern_msgs
+speeds = []
+with open(sys.argv[1] + "/flight.lcm", "rb") as log:
+    while len(head := log.read(28)) == 28:
+        _, _, _, channel_bytes, data_bytes = struct.unpack(">IqqII", head)
+        channel, data = log.read(channel_bytes).decode(), log.read(data_bytes)
+        if channel == "VEHICLE_TRUTH":
+            v = tern_msgs.uav_state_t.decode(data).motion.velocity
+            speeds.append(math.hypot(v.x, v.y, v.z))
+summary = json.load(open(sys.argv[1] + "/summary.json"))
+top, rests = max(speeds), sum(a >= 0.1 > b for a, b in zip(speeds, speeds[1:]))
+print(f"{len(speeds)} states, at most {top:.3f} m/s, {rests} times at rest; summary: {summary['top_speed_mps']:.3f} m/s, {summary['stops']} stops")
+assert len(speeds) > 500 and 0.9 * top < summary["top_speed_mps"] < 1.02 * top and summary["stops"] <= rests
+END
+}
+
 # expect_log_as_counted FLIGHT: the log holds as many states as the logger counted.
 expect_log_as_counted() {
   local counted logged

@@ -325,6 +325,7 @@ an_autopilots_flight_reaches_its_goal_and_lands() {
   wait "$flight" || result=$?
   cat "$work/sim.out"
   [[ $result == 0 && $(field sim outcome) == reached ]] || fail "exit code $result, $(field sim outcome)"
+  has_the_speeds_of_its_states sim
   landed sim
 }
 
