@@ -98,6 +98,9 @@ await run({
     await page.waitForFunction((old) => document.querySelector('canvas.map').toDataURL() !== old, before);
     const { wide, inner } = await page.evaluate(() => ({ wide: document.documentElement.scrollWidth, inner: innerWidth }));
     expect(`${wide} pixels in a window of ${inner}`, wide <= inner);
+    await page.setViewportSize({ width: 360, height: 740 }); // a phone
+    const cut = await page.$$eval('h1, .tile', (all) => all.filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.textContent));
+    expect(`sticks out on a phone: ${cut}`, cut.length === 0);
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
   },
 
