@@ -83,11 +83,11 @@ std::optional<Contact> ClearanceWatch::advance(const FlownPiece& piece, double t
   odometer_ += v * (t1_s - t0_s);
   std::optional<Contact> first;
   for (std::size_t i = 0; i < world_.obstacles.size(); ++i) {
-    const WorldObstacle& o = world_.obstacles[i];
-    if (t1_s < o.first_s() || t0_s > o.last_s()) continue;
     Sighting& seen = sightings_[i];
     const double at_least = seen.distance - (odometer_ - seen.odometer) - speeds_[i] * (t1_s - seen.time_s);
-    if (at_least >= std::max(min_, 0.0)) continue;
+    if (at_least >= std::max(min_, 0.0)) continue;  // first, as the obstacles of a large map lie far apart in memory
+    const WorldObstacle& o = world_.obstacles[i];
+    if (t1_s < o.first_s() || t0_s > o.last_s()) continue;
     const Pair pair{piece, o, distance_, v + speeds_[i], a + accelerations_[i]};
     const auto contact = meet(pair, std::max(t0_s, o.first_s()), std::min(t1_s, o.last_s()));
     if (contact && (!first || *contact < first->time_s)) first = Contact{*contact, o.id()};
