@@ -9,6 +9,7 @@ constexpr Duration kGoalPeriod{1'000'000};
 
 void PageGoal::set(const Goal& goal, const Scene& scene, UTime now) {
   goal_ = goal;
+  newest_id_ = goal.id;
   vehicle_us_ = scene.vehicle_us();
   next_ = now;
 }

@@ -17,9 +17,12 @@ class PageGoal {
   void set(const Goal& goal, const Scene& scene, UTime now);
   /// Returns the goal if it is time to publish it.
   std::optional<Goal> due(const Scene& scene, UTime now);
+  /// Returns the id of the newest goal that was set; 0: none.
+  [[nodiscard]] std::int64_t newest_id() const { return newest_id_; }
 
  private:
   std::optional<Goal> goal_;
+  std::int64_t newest_id_ = 0;
   std::int64_t vehicle_us_ = 0;  ///< sender epoch of its vehicle; 0: the first vehicle that is received
   UTime next_{};
 };

@@ -21,6 +21,14 @@ int main(int argc, char** argv) {
         app.add_option("--allow-host", options.allow_hosts, "Another name by which browsers may address this host")
             ->type_name("NAME")
             ->allow_extra_args(false);
+        app.add_option("--foxglove", options.foxglove,
+                       "Serve Foxglove at this port; without an address, on 127.0.0.1. Goals need --allow-goals")
+            ->type_name("[ADDRESS:]PORT");
+        app.add_option("--allow-origin", options.allow_origins,
+                       "A web page that may connect to --foxglove: https://app.foxglove.dev")
+            ->type_name("ORIGIN")
+            ->allow_extra_args(false)
+            ->needs("--foxglove");
         app.add_option("--looked-fd", options.looked_fd,
                        "Write a byte to this descriptor when the first page connects");
         app.add_option("--url-file", options.url_file, "Write the page's URL to this file")->type_name("FILE");

@@ -11,12 +11,17 @@
 
 namespace tern {
 
+class FoxgloveLink;
+
 /// Collects batches of sets and maps until they are complete.
 class SceneIntake {
  public:
   explicit SceneIntake(Scene& scene) : scene_(scene) {}
 
-  /// Subscribes to every channel that the page shows, for a live flight.
+  /// Also passes every message to Foxglove's clients. Call it before subscribe(). @param link  outlives the intake
+  void pass_to(FoxgloveLink* link) { link_ = link; }
+
+  /// Subscribes to every channel that the page shows, and for Foxglove to all channels, for a live flight.
   void subscribe(Bus& bus);
   /// Takes one message of a log.
   /// @param channel  without the vehicle's suffix
@@ -28,8 +33,15 @@ class SceneIntake {
  private:
   template <class T>
   void take(const Channel<T>& channel, const T& message, UTime at);
+  /// Passes a complete message on.
+  template <class T>
+  void feed(const T& complete);
+  template <class T>
+  void show(const Channel<T>& channel, const T& message, UTime at);
+  void show_state(std::string_view channel, const UavState& state);
 
   Scene& scene_;
+  FoxgloveLink* link_ = nullptr;  ///< null: no Foxglove
   BatchCollector<ObstacleTruth> truth_;
   BatchCollector<TrackSet> tracks_;
   MapAssembler maps_;

@@ -10,6 +10,7 @@
 #include "runtime/config.h"
 #include "runtime/log.h"
 #include "runtime/version.h"
+#include "viewer/bridge/app/foxglove_link.h"
 #include "viewer/bridge/app/listening_socket.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/scene_json.h"
@@ -44,6 +45,7 @@ ViewerNode::ViewerNode(Bus& bus, const Scenario& scenario, ViewerOptions options
       scene_(options_.log.empty() ? &memory_ : nullptr, pace()),
       intake_(scene_),
       next_step_(bus.clock().now()) {
+  if (!options_.foxglove.empty()) listen_for_foxglove();
   if (options_.log.empty()) {
     intake_.subscribe(bus);
   } else {
@@ -76,6 +78,15 @@ void ViewerNode::listen() {
   if (!options_.url_file.empty()) std::ofstream(options_.url_file) << url_ << '\n';
 }
 
+void ViewerNode::listen_for_foxglove() {
+  const bool is_port = options_.foxglove.find(':') == std::string::npos;
+  foxglove_ = std::make_unique<FoxgloveLink>(FoxgloveLink::Options{(is_port ? "127.0.0.1:" : "") + options_.foxglove,
+                                                                   options_.allow_hosts, options_.allow_origins},
+                                             std::to_string(bus_.epoch_us()));
+  intake_.pass_to(foxglove_.get());
+  log::info("Foxglove connects to {}", foxglove_->url());
+}
+
 double ViewerNode::pace() const {
   constexpr Duration kSecond{1'000'000};
   return 1.0 / bus_.clock().in_system_time(kSecond).seconds();
@@ -94,6 +105,7 @@ void ViewerNode::step(UTime now) {
   if (now < next_step_) return;
   next_step_ = now + kStepPeriod;
   for (const ClientCommand& command : server_->take_commands()) execute(command, now);
+  if (foxglove_) take_foxglove_goals(now);
   jump();
   subscriptions_.keep_only(server_->clients());
   if (player_) player_->advance(now, intake_);
@@ -157,27 +169,37 @@ void ViewerNode::execute(std::int64_t, const SpeedCommand& speed, UTime) {
 }
 
 void ViewerNode::execute(std::int64_t client, const GoalCommand& command, UTime now) {
+  const auto refusal = send_goal(command, now);
   JsonWriter json;
   json.begin_object().key("goal").begin_object();
-  const char* refusal = player_                 ? "a log is played"
-                        : !options_.allow_goals ? "tern-viewer was started without --allow-goals"
-                        : command.mode == GoalMode::Go && !scene_.has_room_at(command.position)
-                            ? "the body would leave the flight box"
-                            : nullptr;
-  if (refusal != nullptr) {
-    json.key("refused").text(refusal);
-  } else {
-    Goal goal;
-    goal.id = (scene_.goal() ? scene_.goal()->id : 0) + 1;
-    goal.mode = command.mode;
-    goal.position = command.position;
-    page_goal_.set(goal, scene_, now);
-    repeat_goal(now);
-    log::info("a page sent goal {}: {:.2f}, {:.2f}, {:.2f}", goal.id, goal.position.x(), goal.position.y(),
-              goal.position.z());
-    json.key("sent").integer(goal.id);
-  }
+  refusal ? json.key("refused").text(*refusal) : json.key("sent").integer(page_goal_.newest_id());
   server_->reply(client, json.end_object().end_object().take());
+}
+
+std::optional<std::string> ViewerNode::send_goal(const GoalCommand& command, UTime now) {
+  if (player_) return "a log is played";
+  if (!options_.allow_goals) return "tern-viewer was started without --allow-goals";
+  if (command.mode == GoalMode::Go && !scene_.has_room_at(command.position)) {
+    return "the body would leave the flight box";
+  }
+  Goal goal;
+  goal.id = (scene_.goal() ? scene_.goal()->id : 0) + 1;
+  goal.mode = command.mode;
+  goal.position = command.position;
+  page_goal_.set(goal, scene_, now);
+  repeat_goal(now);
+  log::info("a page sent goal {}: {:.2f}, {:.2f}, {:.2f}", goal.id, goal.position.x(), goal.position.y(),
+            goal.position.z());
+  return std::nullopt;
+}
+
+void ViewerNode::take_foxglove_goals(UTime now) {
+  for (const FoxglovePublished& published : foxglove_->server().take_published()) {
+    const auto position = foxglove::goal_position(published.channel, published.payload, ros::Frames().world);
+    const auto refusal = position ? send_goal({GoalMode::Go, *position}, now) : std::optional(position.error().message);
+    const auto level = refusal ? foxglove::Level::Error : foxglove::Level::Info;
+    foxglove_->server().tell(published.client, level, refusal ? "goal refused: " + *refusal : "goal sent");
+  }
 }
 
 void ViewerNode::repeat_goal(UTime now) {

@@ -18,6 +18,8 @@
 
 namespace tern {
 
+class FoxgloveLink;
+
 /// The options of tern-viewer.
 struct ViewerOptions {
   std::string listen = "127.0.0.1";  ///< address, optionally with :PORT; ignored if TERN_LISTEN_FD passes a socket
@@ -32,6 +34,8 @@ struct ViewerOptions {
   std::string ghost;             ///< another log to draw over it; empty: none
   std::optional<int> looked_fd;  ///< the bridge writes a byte there when the first page connects
   std::string url_file;          ///< the bridge writes the page's URL there; empty: nowhere
+  std::string foxglove;          ///< "PORT" or "ADDRESS:PORT" of the server for Foxglove; empty: none
+  std::vector<std::string> allow_origins;  ///< pages that may connect to it
 };
 
 /// Posts topics to the board while a page is connected, each at most at its own rate. It never waits for a browser.
@@ -48,6 +52,7 @@ class ViewerNode final : public Node {
 
  private:
   void listen();
+  void listen_for_foxglove();
   /// Returns the seconds of flight per second of the system's clock, of this process.
   [[nodiscard]] double pace() const;
   void post_session();
@@ -61,6 +66,9 @@ class ViewerNode final : public Node {
   void execute(std::int64_t client, const SpeedCommand& speed, UTime now);
   void execute(std::int64_t client, const GoalCommand& goal, UTime now);
   void jump();
+  /// Sends a goal, or returns why not.
+  std::optional<std::string> send_goal(const GoalCommand& command, UTime now);
+  void take_foxglove_goals(UTime now);
   void repeat_goal(UTime now);
   void post(UTime now);
   void post_if_changed(Topic topic, UTime now);
@@ -72,6 +80,7 @@ class ViewerNode final : public Node {
   ViewerOptions options_;
   Scene::Memory memory_;  ///< of a live flight
   Scene scene_;
+  std::unique_ptr<FoxgloveLink> foxglove_;  ///< null: not asked for. It outlives intake_, which passes it messages
   SceneIntake intake_;
   std::optional<LogPlayer> player_, ghost_;
   std::optional<UTime> jump_to_;
