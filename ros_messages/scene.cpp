@@ -140,9 +140,10 @@ SceneUpdate SceneDrawing::regions(const VoxelMap& map) const {
   SceneUpdate update;
   update.deletions.push_back({to_ros(at_), kDeleteAll, ""});
   for (const auto& [key, its_voxels] : regions) {
-    const std::string label = to_string(key.first);
+    std::string id = to_string(key.first);
     const std::string& name = map.class_names.at(key.second);
-    SceneEntity& region = update.entities.emplace_back(entity(name.empty() ? label : label + ": " + name));
+    if (!name.empty()) id.append(": ").append(name);
+    SceneEntity& region = update.entities.emplace_back(entity(id));
     add_region(region, key.first, name, cover_with_boxes(map.grid, its_voxels));
   }
   return update;
