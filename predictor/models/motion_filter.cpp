@@ -13,6 +13,9 @@ using Column = Eigen::Matrix<double, N, 1>;
 template <int N>
 using Means = Eigen::Matrix<double, N, 3>;
 
+// Models of this order or more are processes around a constant (motion_model.h): the last rows of F and D are zero.
+constexpr int kMinOrderAroundConstant = 4;
+
 // Calls f<N>() for the order N. With sizes known at compile time the products are several times faster.
 template <typename F>
 auto with_order(int order, const F& f) {
@@ -43,9 +46,31 @@ Eigen::Map<Square<N>> square(double* entries) {
   return Eigen::Map<Square<N>>(entries);
 }
 
+// Copies the lower half to the upper one.
+template <int N>
+void mirror(Eigen::Map<Square<N>>& p) {
+  for (int j = 1; j < N; ++j) {
+    for (int i = 0; i < j; ++i) p(i, j) = p(j, i);
+  }
+}
+
+// The columns from kColumn on of P = moved Φᵀ + Q, without the last row, from the pair of rows of the diagonal on.
+template <int N, int kColumn>
+void predict_columns(const Eigen::Map<const Square<N>>& phi, const Eigen::Map<const Square<N>>& q,
+                     const Eigen::Matrix<double, N - 1, N>& moved, Eigen::Map<Square<N>>& p) {
+  if constexpr (kColumn < N - 1) {
+    constexpr int kFirst = kColumn - kColumn % 2, kRows = N - 1 - kFirst;
+    Eigen::Matrix<double, kRows, 1> sum = q.col(kColumn).template segment<kRows>(kFirst);
+    for (int k = 0; k < N; ++k) sum += moved.col(k).template segment<kRows>(kFirst) * phi(kColumn, k);
+    p.col(kColumn).template segment<kRows>(kFirst) = sum;
+    predict_columns<N, kColumn + 1>(phi, q, moved, p);
+  }
+}
+
 // P ← Φ P Φᵀ + Q, column by column, which compilers vectorise best; then the lower half is mirrored.
 template <int N>
-void predict_covariance(const Square<N>& phi, const Square<N>& q, double* covariance) {
+void predict_covariance(const Eigen::Map<const Square<N>>& phi, const Eigen::Map<const Square<N>>& q,
+                        double* covariance) {
   auto p = square<N>(covariance);
   Square<N> moved;
   for (int j = 0; j < N; ++j) {
@@ -58,9 +83,29 @@ void predict_covariance(const Square<N>& phi, const Square<N>& q, double* covari
     for (int k = 0; k < N; ++k) sum += moved.col(k) * phi(j, k);
     p.col(j) = sum;
   }
-  for (int j = 1; j < N; ++j) {
-    for (int i = 0; i < j; ++i) p(i, j) = p(j, i);
+  mirror<N>(p);
+}
+
+// The same for models around a constant, their last state. The last row of Φ is that of the identity, so it needs no
+// products. Of the other rows, pairs above the diagonal are left out.
+template <int N>
+void predict_around_constant(const Eigen::Map<const Square<N>>& phi, const Eigen::Map<const Square<N>>& q,
+                             double* covariance) {
+  constexpr int kMoving = N - 1;
+  using Rows = Eigen::Matrix<double, kMoving, 1>;
+  auto p = square<N>(covariance);
+  Eigen::Matrix<double, kMoving, N> moved;
+  for (int j = 0; j < N; ++j) {
+    Rows sum = phi.col(0).template head<kMoving>() * p(0, j);
+    for (int k = 1; k < N; ++k) sum += phi.col(k).template head<kMoving>() * p(k, j);
+    moved.col(j) = sum;
   }
+  Rows last = q.row(kMoving).template head<kMoving>().transpose();
+  for (int k = 0; k < N; ++k) last += phi.col(k).template head<kMoving>() * p(kMoving, k);
+  p(kMoving, kMoving) += q(kMoving, kMoving);
+  p.row(kMoving).template head<kMoving>() = last.transpose();
+  predict_columns<N, 0>(phi, q, moved, p);
+  mirror<N>(p);
 }
 
 }  // namespace
@@ -88,10 +133,17 @@ void start(const MotionModel& model, const Vec3& z, const Vec3& r, const FilterS
 void predict(const ModelStep& step, const FilterStates<double>& states) {
   with_order(states.order, [&](auto order) {
     constexpr int kOrder = decltype(order)::value;
-    const Square<kOrder> phi = square<kOrder>(step.phi.data()), q = square<kOrder>(step.q.data());
+    const auto phi = square<kOrder>(step.phi.data()), q = square<kOrder>(step.q.data());
     Eigen::Map<Means<kOrder>> mean(states.mean);
     mean = (phi * mean).eval();
-    for_each_covariance(states, [&](int axis) { predict_covariance<kOrder>(phi, q, states.covariance[idx(axis)]); });
+    for_each_covariance(states, [&](int axis) {
+      double* covariance = states.covariance[idx(axis)];
+      if constexpr (kOrder < kMinOrderAroundConstant) {
+        predict_covariance<kOrder>(phi, q, covariance);
+      } else {
+        predict_around_constant<kOrder>(phi, q, covariance);
+      }
+    });
   });
 }
 
