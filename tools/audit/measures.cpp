@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "tools/audit/audit.h"
 #include "tools/audit/true_motion.h"
@@ -14,6 +16,8 @@ constexpr double kNear = 1.0;    // m
 constexpr double kStep = 0.001;  ///< s; the width of the bounds is quadratic in it
 /// Most steps of one span. After a long gap the bounds are wide in any case.
 constexpr double kMaxSteps = 10'000.0;
+
+constexpr double kChord = 0.5;  ///< s; 5 cm of noise are 1 % of a chord at 3 m/s
 
 /// A time step of the flight, so short that the motion is nearly straight.
 struct Step {
@@ -79,7 +83,9 @@ class Measuring {
     }
     const bool surely = begin >= window_.unsure.seconds() && begin + span.curve.length_s() <= sure_to_s();
     if (span.wander_m > 0.0 && surely) {
-      measures_.path_m.low += (span.curve.p(span.curve.length_s()) - span.curve.p(0.0)).norm();
+      take_chord(begin, span);
+    } else {
+      chord_from_.reset();
     }
   }
 
@@ -98,6 +104,16 @@ class Measuring {
   }
 
  private:
+  /// Adds chords between measured positions at least kChord apart. Positions of an aircraft are estimates: chords from
+  /// each to the next would add their noise to the path.
+  void take_chord(double begin_s, const MotionSpan& span) {
+    if (!chord_from_) chord_from_ = {begin_s, span.curve.p(0.0)};
+    const double end_s = begin_s + span.curve.length_s();
+    if (end_s - chord_from_->first < kChord) return;
+    const Vec3 end = span.curve.p(span.curve.length_s());
+    measures_.path_m.low += (end - chord_from_->second).norm();
+    chord_from_ = {end_s, end};
+  }
   [[nodiscard]] double sure_to_s() const { return (window_.sure_to() - window_.from).seconds(); }
   [[nodiscard]] bool begins_at_rest() const {
     return !record_.requests.empty() && record_.requests.front().id == 1 &&
@@ -171,6 +187,7 @@ class Measuring {
   Window window_;
   Measures measures_;
   std::vector<Step> steps_;
+  std::optional<std::pair<double, Vec3>> chord_from_;  ///< begin of the chord: s in the window, and position, m
 };
 
 }  // namespace
