@@ -15,6 +15,8 @@ constexpr double kGap = 0.1;
 /// PX4 filters the derivative of the velocity with this time constant (MPC_VELD_LP, 5 Hz), s.
 constexpr double kRateFilter = 0.032;
 constexpr double kMoving = 1.0;  // m/s
+/// A vehicle that accelerates by much more or less than commanded is another one than this model.
+constexpr double kMaxOff = 0.15;
 /// Residuals of neighbouring spans depend on each other: the standard error is larger than that of independent ones.
 constexpr double kDependent = 2.0;
 
@@ -96,8 +98,8 @@ std::optional<FlightIdentification::Answer> FlightIdentification::answer() const
     const double sigma = std::sqrt(variance * solver.solve(Row::Unit(1))[1]);
     answer = {unknowns[1], kDependent * sigma, lag_of(k), unknowns[0], moved_s_};
   }
-  const bool inside = best > 0 && best + 1 < kLags;
-  if (!inside || !(answer.drag_sigma <= kMaxSigma) || !(answer.share > 0.0)) return std::nullopt;
+  const bool inside = best > 0 && best + 1 < kLags, fits = std::abs(answer.share - 1.0) <= kMaxOff;
+  if (!inside || !fits || !(answer.drag_sigma <= kMaxSigma)) return std::nullopt;
   return answer;
 }
 
