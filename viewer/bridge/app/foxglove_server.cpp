@@ -330,7 +330,7 @@ void FoxgloveServer::publish(std::size_t channel, UTime at, std::string cdr) {
   });
 }
 
-void FoxgloveServer::tell(std::int64_t client, foxglove::Level level, std::string message) {
+void FoxgloveServer::tell(std::int64_t client, foxglove::Level level, const std::string& message) {
   asio::post(impl_->context, [impl = impl_.get(), client, text = foxglove::status(level, message)]() mutable {
     const auto found = impl->clients.connected.find(client);
     if (found == impl->clients.connected.end()) return;

@@ -48,7 +48,7 @@ class FoxgloveServer {
   /// Sends a message to the channel's subscribers.
   void publish(std::size_t channel, UTime at, std::string cdr);
   /// Sends a text to a client, if it is still there.
-  void tell(std::int64_t client, foxglove::Level level, std::string message);
+  void tell(std::int64_t client, foxglove::Level level, const std::string& message);
   /// Returns the messages received since the last call, in order.
   std::vector<FoxglovePublished> take_published();
   [[nodiscard]] FoxgloveCounters counters() const;
