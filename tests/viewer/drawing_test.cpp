@@ -9,10 +9,10 @@
 #include <tuple>
 #include <vector>
 
+#include "core/drawing/predicted_hulls.h"
 #include "core/geometry/box.h"
 #include "core/world/message_limits.h"
 #include "tests/viewer/known_scene.h"
-#include "core/drawing/predicted_hulls.h"
 #include "viewer/bridge/scene.h"
 #include "viewer/bridge/scene_json.h"
 #include "viewer/bridge/voxel_faces.h"
