@@ -300,10 +300,11 @@ a_flight_whose_file_system_fills_up_is_told_as_incomplete() {
   cat "$work/small/flight.out"
   "$TERN_BIN/tern-audit" "$work/small/flight" >"$work/audit" || audited=$?
   cat "$work/audit"
-  [[ $flown == 5 && $(field small/flight outcome) == reached ]] || fail "exit code $flown, $(field small/flight outcome)"
-  [[ $(field small/flight recording) == "incomplete: "*"are not in the log: "*"No space left on device"* ]] ||
-    fail "the summary: $(field small/flight recording)"
-  expect "the page says so" has_text '^ *recording *incomplete: ' "$work/small/flight.out"
+  # Whether the summary's file still had room depends on the last message that the log took; so the page is read.
+  [[ $flown == 5 ]] || fail "exit code $flown"
+  expect "it reached its goal" has_text '^reached$' "$work/small/flight.out"
+  expect "the page says so" has_text '^ *recording *incomplete: .* messages are not in the log' "$work/small/flight.out"
+  expect "and why" has_text 'No space left on device' "$work/small/flight.out"
   [[ $audited == 3 ]] || fail "the audit's exit code is $audited"
   expect "the audit says from when to when" has_text '^INCOMPLETE: .* it reaches from .* s of a flight of ' "$work/audit"
   nobody_left || fail "left: $(pgrep -af "$work/")"
