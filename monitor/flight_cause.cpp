@@ -23,7 +23,7 @@ constexpr Duration kShortlyBefore{500'000};
 constexpr Duration kBeforeContact{1'000'000};
 
 /// Kinds of answers that hold a vehicle, by what would help.
-enum Kind { Stale, Blocked, Unplanned, Slow, Arrived, Other, kKinds };
+enum Kind { Stale, Blocked, Unplanned, Slow, Arrived, Other, Kinds };
 
 Kind kind_of(const AnswerNote& answer) {
   if (!answer.in_time || answer.reason == PlanReason::OutOfTime) return Slow;
@@ -282,7 +282,7 @@ class Explainer {
   const FlightEnd& end_;
   UTime from_;  ///< since when the vehicle was held
   std::string held_;
-  std::array<std::vector<const AnswerNote*>, kKinds> kinds_;
+  std::array<std::vector<const AnswerNote*>, Kinds> kinds_;
   std::size_t answers_ = 0;
 };
 
