@@ -76,6 +76,15 @@ await run({
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
     await pauseAt(page, 10);
     await eventually('a tag', async () => (await tags(page)).includes('gate'));
+    // The camera glides to the vehicle. Until it rests, a projected point is elsewhere at the next frame.
+    const camera = () => page.evaluate(() => window.tern.world.camera.position.toArray());
+    let seen = await camera();
+    await eventually('the camera rests', async () => {
+      await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+      const before = seen;
+      seen = await camera();
+      return seen.every((x, k) => Math.abs(x - before[k]) < 1e-6);
+    });
     const detail = await page.evaluate(async () => {
       const { tern } = window;
       const panel = document.getElementById('inspected');
