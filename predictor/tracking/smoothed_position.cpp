@@ -8,6 +8,9 @@ namespace tern {
 namespace {
 
 constexpr std::size_t kMinOfParabola = 4;  // detections
+// Detections of several sensors at nearly the same time are of one instant. Two instants determine no parabola.
+constexpr int kMinInstants = 3;
+constexpr Duration kOneInstant{20'000};
 
 // Time in units of the span: 1, t, t².
 Eigen::Vector3d powers(const Measurement& detection, UTime at) {
@@ -32,11 +35,17 @@ std::optional<Measurement> smoothed_position(const std::vector<Measurement>& det
   while (first < detections.size() && (at - detections[first].at).seconds() > kSmoothingSpan) ++first;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   std::size_t last = first, before = 0;
+  int instants = 0;
+  UTime instant;
   for (; last < detections.size() && (detections[last].at - at).seconds() <= kSmoothingSpan; ++last) {
     normal += powers(detections[last], at) * powers(detections[last], at).transpose();
     before += detections[last].at <= at ? 1U : 0U;
+    if (instants > 0 && detections[last].at - instant < kOneInstant) continue;
+    instant = detections[last].at;
+    ++instants;
   }
-  if (last - first < kMinOfParabola || before == 0 || before == last - first) return interpolated(detections, at);
+  const bool is_determined = last - first >= kMinOfParabola && instants >= kMinInstants;
+  if (!is_determined || before == 0 || before == last - first) return interpolated(detections, at);
   const Eigen::Vector3d solved = normal.inverse().col(0);
   Measurement smoothed{at, Vec3::Zero(), Vec3::Zero()};
   for (std::size_t k = first; k < last; ++k) {

@@ -10,8 +10,8 @@
 namespace tern {
 
 /// The smoothed position at a time is a parabola through the detections within kSmoothingSpan of it, s. It needs four
-/// detections, and some on both sides. Otherwise it is the straight line between two neighbours that are at most
-/// kMaxGap apart, s.
+/// detections, at three instants, and some on both sides. Otherwise it is the straight line between two neighbours that
+/// are at most kMaxGap apart, s.
 inline constexpr double kSmoothingSpan = 0.2, kMaxGap = 0.5;
 
 /// A position of a track with its variance, as detected or smoothed.

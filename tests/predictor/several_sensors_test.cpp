@@ -1,8 +1,11 @@
 // Sensors that see different things at different rates.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "predictor/tracking/tracker.h"
 #include "tests/predictor/simulated_motion.h"
@@ -100,6 +103,30 @@ TEST(TrackerOfTwoSensors, TheRangeIsThatOfTheSensorThatDetectedTheTrack) {
     tracker.update(frame(kCamera, 2.01 + k / 10.0, {}));  // unlimited range, and never detected it
   }
   EXPECT_EQ(tracker.objects().size(), 1u);
+}
+
+/// At this rate, detections within the span of a smoothed position are of two instants.
+TEST(TrackerOfTwoSensors, ThatMeasureAtTheSameTimesPredictWhereAnObstacleWillBe) {
+  const auto error_after = [](const std::vector<std::int32_t>& sensors) {
+    Rng rng(15);
+    Tracker tracker(TrackerConfig{});
+    constexpr double kPeriod = 0.2;
+    double largest = 0.0;
+    for (double t = 0.0; t < 12.0; t += kPeriod) {
+      for (const std::int32_t sensor : sensors) {
+        tracker.update(frame(sensor, t, {detection_of(Vec3(t, 0.0, 1.0), 0.02, rng)}));
+      }
+      if (t < 8.0) continue;
+      const std::vector<Track> tracks = tracker.predict(tracker.newest());
+      if (tracks.size() != 1) return std::numeric_limits<double>::infinity();
+      const Vec3 apart = tracks[0].motion.sample(tracker.newest() + Duration{1'000'000}).p - Vec3(t + 1.0, 0.0, 1.0);
+      if (!apart.allFinite()) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, apart.norm());
+    }
+    return largest;
+  };
+  EXPECT_LT(error_after({kLidar}), 0.5);
+  EXPECT_LT(error_after({kLidar, kCamera}), 0.5);
 }
 
 }  // namespace

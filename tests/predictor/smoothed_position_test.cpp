@@ -56,6 +56,25 @@ TEST(SmoothedPosition, IsALineBetweenTwoNeighboursWhereFewAreNear) {
   EXPECT_NEAR(middle->r.x(), (0.75 * 0.75 + 0.25 * 0.25) * kVariance, 1e-12);
 }
 
+/// Where two sensors measure at the same times, four detections may be of two instants only.
+TEST(SmoothedPosition, OfTwoSensorsAtTheSameTimesStaysNearTheirDetections) {
+  for (const double apart_s : {0.0, 1e-6, 1e-3}) {
+    for (const double period_s : {0.05, 0.1, 0.15, 1.0 / 6.0, 0.2, 0.25, 0.4}) {
+      std::vector<Measurement> seen;
+      for (double t = 0.0; t < 2.0; t += period_s) {
+        seen.push_back({at(t), Vec3(t, 0.01, 1.0), Vec3::Constant(kVariance)});
+        seen.push_back({at(t + apart_s), Vec3(t, -0.01, 1.0), Vec3::Constant(kVariance)});
+      }
+      for (double t = 0.05; t < 1.5; t += 0.025) {
+        const auto smoothed = smoothed_position(seen, at(t));
+        ASSERT_TRUE(smoothed);
+        EXPECT_LT((smoothed->z - Vec3(t, 0.0, 1.0)).norm(), 0.03) << t << ", " << period_s << ", " << apart_s;
+        EXPECT_LT(smoothed->r.maxCoeff(), 2.0 * kVariance);
+      }
+    }
+  }
+}
+
 TEST(SmoothedPosition, IsUnknownInAGapAndBeyondTheDetections) {
   EXPECT_FALSE(smoothed_position(detections({0.0, 0.05, 0.6, 0.65}), at(0.3))) << "a gap of more than kMaxGap";
   EXPECT_FALSE(smoothed_position(detections({0.1, 0.15, 0.2, 0.25}), at(0.05)));
