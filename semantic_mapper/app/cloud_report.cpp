@@ -16,6 +16,14 @@ namespace {
 /// then moves a point by up to an eighth of a voxel.
 constexpr double kMaxSpacingShare = 0.25;
 constexpr std::size_t kClassesShown = 12;
+constexpr const char* kNotNear = "lies in or near uav.flight_box";
+constexpr const char* kCheckFrame = "check origin and metres_per_unit";
+
+/// Whether a source may lie beside the flight box: the extents say that the map reaches beyond the box. Without such
+/// extents a source that is far from the box is most likely in another frame.
+bool may_lie_beside(const MapperConfig& config, const Box& flight_box) {
+  return config.extents && config.extents->intersects(flight_box);
+}
 
 struct Census {
   std::array<std::int64_t, 256> of_class{};
@@ -81,9 +89,15 @@ std::string box_text(const Box& box) {
                      box.min().z(), box.max().x(), box.max().y(), box.max().z());
 }
 
+std::string not_near_text(const Census& census) {
+  return fmt::format("no point {}: the cloud reaches {}", kNotNear, box_text(census.bounds));
+}
+
 /// Why no point marks a voxel, and the keys that may help; "" if one does.
-std::string reason_for_nothing(const CloudFile& cloud, const Census& census, const ClassMeanings& classes) {
-  if (census.near_box > 0) return "";
+/// @param beside  points beside the flight box mark voxels as well
+std::string reason_for_nothing(const CloudFile& cloud, const Census& census, const ClassMeanings& classes,
+                               bool beside) {
+  if (census.near_box > 0 || (beside && census.in_extents > 0)) return "";
   const std::string properties =
       cloud.properties.empty() ? "" : fmt::format(" (the file's properties: {})", listed(cloud.properties));
   if (cloud.points.empty()) return "no point can be used: check origin, metres_per_unit and `label`" + properties;
@@ -94,11 +108,11 @@ std::string reason_for_nothing(const CloudFile& cloud, const Census& census, con
         properties.empty() ? "" : ", or which property is the class by `label`" + properties);
   }
   if (census.in_extents == 0) {
-    return fmt::format("no point lies inside mapper.extents: the cloud reaches {}: check origin and metres_per_unit",
-                       box_text(census.bounds));
+    return fmt::format("no point lies inside mapper.extents: the cloud reaches {}: {}", box_text(census.bounds),
+                       kCheckFrame);
   }
-  return fmt::format("no point lies in or near uav.flight_box: the cloud reaches {}: check origin and metres_per_unit",
-                     box_text(census.bounds));
+  return fmt::format("{}: {}; a cloud beside the box needs mapper.extents that contain both", not_near_text(census),
+                     kCheckFrame);
 }
 
 }  // namespace
@@ -111,7 +125,8 @@ std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& 
   const auto total =
       static_cast<std::int64_t>(cloud.points.size()) + cloud.not_finite + cloud.too_far + cloud.not_a_class;
   const std::string left_out = left_out_text(cloud);
-  if (const std::string why = reason_for_nothing(cloud, census, classes); !why.empty()) {
+  const bool beside = may_lie_beside(config, flight_box);
+  if (const std::string why = reason_for_nothing(cloud, census, classes, beside); !why.empty()) {
     throw source.section.error("file", fmt::format("{}: {} points{}, but none marks a voxel: {}", source.file, total,
                                                    left_out.empty() ? "" : fmt::format(" ({})", left_out), why));
   }
@@ -124,6 +139,10 @@ std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& 
   if (census.in_extents < census.meant) {
     remarks.push_back({fmt::format("{}: {} of {} points lie outside mapper.extents and are left out", source.file,
                                    census.meant - census.in_extents, census.meant)});
+  }
+  if (census.near_box == 0) {
+    remarks.push_back(
+        {fmt::format("{}: {}; if it should be there, {}", source.file, not_near_text(census), kCheckFrame), true});
   }
   if (census.unclassified > 0) {
     remarks.push_back(
@@ -146,23 +165,29 @@ std::vector<MapRemark> report_octomap(const CloudSource& source, const OctoMapFi
                                       const Box& flight_box) {
   const Box near = grown(flight_box, Vec3::Constant(config.resolution));
   std::int64_t occupied = 0;
-  std::int64_t used = 0;
+  std::int64_t in_extents = 0;
+  std::int64_t near_box = 0;  // of these
   Box bounds;
   for (const OctoLeaf& leaf : octomap.leaves) {
     const Box box = octomap.box(leaf);
     occupied += leaf.is_occupied ? 1 : 0;
     bounds.extend(box);
-    used += near.intersects(box) && (!config.extents || config.extents->intersects(box)) ? 1 : 0;
+    if (config.extents && !config.extents->intersects(box)) continue;
+    ++in_extents;
+    near_box += near.intersects(box) ? 1 : 0;
   }
   const std::string counts =
       fmt::format("{}: {} cubes of space, {} occupied and {} free, {}", source.file, octomap.leaves.size(), occupied,
                   std::ssize(octomap.leaves) - occupied, box_text(bounds));
-  if (used == 0) {
-    throw source.section.error(
-        "file", fmt::format("{}; none lies in or near uav.flight_box{}: check origin and metres_per_unit", counts,
-                            config.extents ? " and inside mapper.extents" : ""));
+  if (near_box == 0 && (in_extents == 0 || !may_lie_beside(config, flight_box))) {
+    throw source.section.error("file", fmt::format("{}; none {}{}: {}", counts, kNotNear,
+                                                   config.extents ? " and inside mapper.extents" : "", kCheckFrame));
   }
   std::vector<MapRemark> remarks{{counts}};
+  if (near_box == 0) {
+    remarks.push_back(
+        {fmt::format("{}: no cube {}; if some should be there, {}", source.file, kNotNear, kCheckFrame), true});
+  }
   if (octomap.too_far > 0) {
     remarks.push_back({fmt::format("{}: {} cubes lie beyond {:g} m of the world's origin and are left out", source.file,
                                    octomap.too_far, kMaxCoordinate),

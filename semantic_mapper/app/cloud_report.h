@@ -16,17 +16,25 @@ struct MapRemark {
   bool is_warning = false;
 };
 
-/// Returns one line on the points that are used, and a warning for each fact that may make the map wrong. Such facts
-/// are float32 coordinates that are too large for the resolution, and points that are not finite or too far away.
-/// Unclassified points among classified ones are a third.
+/// Returns one line on the points that are used, and a warning for each fact that may make the map wrong:
+///
+/// * float32 coordinates that are too large for the resolution;
+/// * points that are not finite or too far away;
+/// * unclassified points among classified ones;
+/// * no point in or near the flight box.
+///
+/// A cloud beside the flight box, as trees above it, is used if extents are given that overlap the box and hold points.
+/// Without such extents the cloud is most likely in another frame, and the vehicle would fly through a free map.
 /// @param classes  meanings as configured, with semantics enabled
-/// @throws ConfigError if no point can mark a voxel. Either no class has a meaning, or all points lie outside the
-///   extents or far from the flight box. The error names the counts per class and the file's properties.
+/// @throws ConfigError if no point can mark a voxel. The error names the counts per class and the file's properties.
+///   Either no class has a meaning, all points lie outside the extents, or they lie beside the flight box without such
+///   extents.
 std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& cloud, const ClassMeanings& classes,
                                     const MapperConfig& config, const Box& flight_box);
 
 /// Returns one line on the leaves of an OctoMap, and one if the map's voxels are coarser than the OctoMap's.
-/// @throws ConfigError if no leaf lies inside the extents and in or near the flight box
+/// An OctoMap beside the flight box is used, with a warning, as a cloud is.
+/// @throws ConfigError if no leaf lies inside the extents, or all lie beside the flight box without such extents
 std::vector<MapRemark> report_octomap(const CloudSource& source, const OctoMapFile& octomap, const MapperConfig& config,
                                       const Box& flight_box);
 

@@ -1,6 +1,7 @@
 #include "semantic_mapper/app/live_intake.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tern {
@@ -51,7 +52,8 @@ void LiveIntake::receive(std::int32_t sensor, UTime at, Scan part) {
     return;
   }
   Pending& scan = pending->second;
-  const bool is_part = scan.at == at && scan.scan.sensor == part.sensor && scan.scan.has_classes == part.has_classes &&
+  const bool is_part = scan.at == at && scan.scan.sensor == part.sensor && scan.scan.range == part.range &&
+                       scan.scan.has_classes == part.has_classes &&
                        scan.scan.points.size() + part.points.size() <= kMaxScanPoints;
   if (is_part) {
     scan.scan.points.insert(scan.scan.points.end(), part.points.begin(), part.points.end());
@@ -68,9 +70,14 @@ int LiveIntake::add_to(LiveMap& map, UTime now) {
     return true;
   });
   const std::vector<Scan> scans = std::exchange(complete_, {});
-  for (const Scan& scan : scans) map.add(scan);
-  scans_ += std::ssize(scans);
-  return static_cast<int>(scans.size());
+  auto first = scans.end();
+  for (std::size_t points = 0; first != scans.begin(); --first) {
+    points += std::prev(first)->points.size();
+    if (first != scans.end() && points > kMaxScanPoints) break;
+  }
+  left_out_ += first - scans.begin();
+  for (auto scan = first; scan != scans.end(); ++scan) map.add(*scan);
+  return static_cast<int>(scans.end() - first);
 }
 
 UTime LiveIntake::next_complete() const {

@@ -17,16 +17,18 @@ Scan scan_of(const DepthImage& image);
 /// Returns the finite points of a cloud in W.
 Scan scan_of(const CloudScan& cloud);
 
-/// Subscribes to scans and collects them. Messages of one sensor with the same time are one scan. It is complete when a
-/// message with another time arrives, or kScanParts after its last message. So a voxel that is hit in one part is not
-/// freed by rays of another part.
+/// Subscribes to scans and collects them. Messages of one sensor are one scan if they agree in time, position, range
+/// and has_classes. It is complete when another message arrives, or kScanParts after its last message. So a voxel that
+/// is hit in one part is not freed by rays of another part.
 class LiveIntake {
  public:
   explicit LiveIntake(Bus& bus);
 
-  /// Adds the complete scans to the map. @return how many
+  /// Adds the complete scans to the map, the newest kMaxScanPoints points of them. Older scans are left out and
+  /// counted: the time of one step is bounded, and HEARTBEAT goes on in a flood. @return how many were added
   int add_to(LiveMap& map, UTime now);
-  [[nodiscard]] std::int64_t scans() const { return scans_; }  ///< complete scans so far
+  /// The number of scans that were left out so far.
+  [[nodiscard]] std::int64_t left_out() const { return left_out_; }
   /// When the oldest scan is complete even without another message; kNever if none waits.
   [[nodiscard]] UTime next_complete() const;
 
@@ -40,14 +42,15 @@ class LiveIntake {
   Bus& bus_;
   std::map<std::int32_t, Pending> pending_;  // by sensor
   std::vector<Scan> complete_;
-  std::int64_t scans_ = 0;
+  std::int64_t left_out_ = 0;
 };
 
 /// A scan is complete this long after its last message.
 inline constexpr Duration kScanParts{50'000};
 /// The largest number of sensors of which scans are collected; of further ones, each message is a scan.
 inline constexpr std::size_t kMaxSensors = 16;
-/// A scan is complete with this many points: a depth image of 1280 × 800.
+/// A scan is complete with this many points, a depth image of 1280 × 800; and a step adds no more, but at least one
+/// scan.
 inline constexpr std::size_t kMaxScanPoints = 1'024'000;
 
 }  // namespace tern

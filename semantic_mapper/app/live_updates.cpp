@@ -37,7 +37,9 @@ LiveUpdates::LiveUpdates(Bus& bus, const VoxelMap& base, const LiveSetup& setup)
 }
 
 void LiveUpdates::add_scans(UTime now) {
+  const std::int64_t left_out = intake_.left_out();
   if (intake_.add_to(map_, now) == 0) return;
+  if (intake_.left_out() > left_out) last_left_out_ = now;
   if (!last_scan_) map_.free_start(setup_.body, setup_.position);
   last_scan_ = now;
 }
@@ -55,6 +57,11 @@ std::string LiveUpdates::waiting_for() const {
   const Duration silence = bus_.clock().now() - *last_scan_;
   if (silence < kScanSilence) return "";
   return fmt::format("scans: the last one came {:.0f} s ago", silence.seconds());
+}
+
+std::string LiveUpdates::overloaded() const {
+  if (!last_left_out_ || bus_.clock().now() - *last_left_out_ >= kScanSilence) return "";
+  return fmt::format("overloaded: {} scans so far were left out for newer ones; send fewer points", intake_.left_out());
 }
 
 }  // namespace tern

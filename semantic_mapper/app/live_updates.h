@@ -27,6 +27,8 @@ class LiveUpdates {
   [[nodiscard]] UTime next_scan() const { return intake_.next_complete(); }
   /// The text for HEARTBEAT while scans are missing; "" while they come.
   [[nodiscard]] std::string waiting_for() const;
+  /// The text for HEARTBEAT if scans were left out in the last kScanSilence; else "".
+  [[nodiscard]] std::string overloaded() const;
 
  private:
   Bus& bus_;
@@ -36,6 +38,7 @@ class LiveUpdates {
   std::uint64_t version_;
   UTime next_map_;
   std::optional<UTime> last_scan_;
+  std::optional<UTime> last_left_out_;
 };
 
 }  // namespace tern

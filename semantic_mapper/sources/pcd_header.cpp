@@ -95,6 +95,7 @@ class HeaderLines {
     const auto kind = words.size() == 1 ? std::find(kKinds.begin(), kKinds.end(), words[0]) : kKinds.end();
     if (kind == kKinds.end()) return "the line DATA is not ascii, binary or binary_compressed";
     header.data = static_cast<PcdData>(kind - kKinds.begin());
+    if (label_ == kPcdPadding) return fmt::format("the field {} is padding: it has no class", kPcdPadding);
     if (std::string problem = add_columns(); !problem.empty()) return problem;
     if (std::string problem = set_count(); !problem.empty()) return problem;
     return header.columns.find(label_);

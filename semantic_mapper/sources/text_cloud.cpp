@@ -58,6 +58,8 @@ class Lines {
   std::string take(std::string_view line) {
     const std::size_t begin = line.find_first_not_of(" \t\r");
     if (begin == std::string_view::npos || line[begin] == '#') return "";
+    // The words of a line take eight times its memory and more.
+    if (line.size() > kMaxTextLine) return fmt::format("{} bytes (limit {})", line.size(), kMaxTextLine);
     const bool is_first = std::exchange(is_first_, false);
     if (columns_.names.empty()) {
       const auto words = words_of(line, kSeparators);

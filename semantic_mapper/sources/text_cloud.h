@@ -22,12 +22,13 @@ namespace tern {
 ///
 /// * a line of another number of columns than the first, or text instead of a number;
 /// * a column that is missing;
-/// * more than kMaxCloudPoints points or kMaxTextColumns columns.
+/// * more than kMaxCloudPoints points or kMaxTextColumns columns, a line of more than kMaxTextLine bytes.
 ///
 /// O(bytes).
 Result<CloudFile> parse_text_cloud(std::span<const std::uint8_t> bytes, const std::string& file,
                                    const PointFrame& frame, const std::string& label = "");
 
 inline constexpr std::size_t kMaxTextColumns = 256;
+inline constexpr std::size_t kMaxTextLine = 65'536;
 
 }  // namespace tern

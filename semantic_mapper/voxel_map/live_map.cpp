@@ -20,13 +20,6 @@ constexpr int kLowest = -40;
 constexpr int kHighest = 70;
 constexpr std::int8_t kUnseen = -128;
 
-std::uint8_t index_of(const std::string& name, std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  const auto index = found - names.begin();
-  if (found == names.end()) names.push_back(name);
-  return static_cast<std::uint8_t>(index);
-}
-
 }  // namespace
 
 LiveMap::LiveMap(VoxelMap base, const ClassMeanings& classes, const ScanRange& range)
@@ -36,9 +29,9 @@ LiveMap::LiveMap(VoxelMap base, const ClassMeanings& classes, const ScanRange& r
         fmt::format("a live map of {} voxels (limit {}): give smaller extents or a coarser resolution",
                     base_.grid.voxels(), kMaxLiveVoxels));
   }
-  unlabelled_ = {VoxelLabel::Occupied, index_of(kUnlabelled, base_.class_names)};
+  unlabelled_ = {VoxelLabel::Occupied, index_of_class(kUnlabelled, base_.class_names)};
   for (std::size_t i = 0; i < classes.size(); ++i) {
-    if (classes[i]) meanings_[i] = {classes[i]->label, index_of(classes[i]->name, base_.class_names)};
+    if (classes[i]) meanings_[i] = {classes[i]->label, index_of_class(classes[i]->name, base_.class_names)};
   }
   log_odds_.assign(base_.labels.size(), kUnseen);
   last_.assign(base_.labels.size(), {});
@@ -121,6 +114,7 @@ VoxelMap LiveMap::map(const Body& body, const Vec3& p) const {
     map.classes[i] = is_occupied ? last_[i].class_index : std::uint8_t{0};
   }
   for (const std::int64_t voxel : voxels_stood_in(map.grid, map.labels, body, p)) {
+    if (base_.labels[idx(voxel)] == VoxelLabel::Occupied) continue;
     map.labels[idx(voxel)] = VoxelLabel::Free;
     map.classes[idx(voxel)] = 0;
   }

@@ -41,9 +41,9 @@ class LiveMap {
  public:
   /// @param base  the map of the files and regions; its grid stays
   /// @param classes  the meanings of classes. Points of a class without a meaning mark nothing; the space before them
-  /// is
-  ///   free.
+  ///   is free.
   /// @throws std::invalid_argument if the map has more than kMaxLiveVoxels
+  /// @throws std::length_error if it has more than kMaxMapClasses with these
   LiveMap(VoxelMap base, const ClassMeanings& classes, const ScanRange& range);
 
   /// Adds a scan. Points of a scan without classes are occupied, of class "unlabelled". O(points · range/resolution).
@@ -52,7 +52,8 @@ class LiveMap {
   /// Frees the unseen voxels within kStartMargin voxels of the box around the body at p. The vehicle starts there, and
   /// its sensors may not see above and below it.
   void free_start(const Body& body, const Vec3& p);
-  /// Returns the map as it is now. Occupied voxels in which the body at p stands are free (voxels_stood_in). O(voxels).
+  /// Returns the map as it is now. Voxels in which the body at p stands are free (voxels_stood_in), unless a file or a
+  /// region says that they are occupied. O(voxels).
   [[nodiscard]] VoxelMap map(const Body& body, const Vec3& p) const;
   [[nodiscard]] const VoxelGrid& grid() const { return base_.grid; }
 

@@ -20,17 +20,7 @@ std::uint8_t strength_of(VoxelLabel label) {
   return 0;
 }
 
-VoxelPainter::VoxelPainter(const VoxelGrid& grid, VoxelLabel background) {
-  const auto n = static_cast<std::size_t>(grid.voxels());
-  map_.grid = grid;
-  map_.labels.assign(n, background);
-  map_.classes.assign(n, 0);
-  map_.class_names = {""};
-  strength_.assign(n, 0);
-}
-
-std::uint8_t VoxelPainter::class_index(const std::string& name) {
-  auto& names = map_.class_names;
+std::uint8_t index_of_class(const std::string& name, std::vector<std::string>& names) {
   const auto found = std::find(names.begin(), names.end(), name);
   const auto index = idx(found - names.begin());
   if (found == names.end()) {
@@ -38,6 +28,15 @@ std::uint8_t VoxelPainter::class_index(const std::string& name) {
     names.push_back(name);
   }
   return static_cast<std::uint8_t>(index);
+}
+
+VoxelPainter::VoxelPainter(const VoxelGrid& grid, VoxelLabel background) {
+  const auto n = static_cast<std::size_t>(grid.voxels());
+  map_.grid = grid;
+  map_.labels.assign(n, background);
+  map_.classes.assign(n, 0);
+  map_.class_names = {""};
+  strength_.assign(n, 0);
 }
 
 void VoxelPainter::paint(std::int64_t index, VoxelLabel label, std::uint8_t class_index) {

@@ -17,14 +17,17 @@ inline constexpr const char* kUnlabelled = "unlabelled";
 /// Returns the strength of a label: occupied > repulsive > attractive > free > unknown > 0.
 std::uint8_t strength_of(VoxelLabel label);
 
+/// Returns the index of a class name and adds the name if it is new.
+/// @throws std::length_error if there would be more than kMaxMapClasses
+std::uint8_t index_of_class(const std::string& name, std::vector<std::string>& names);
+
 /// A map in the making.
 class VoxelPainter {
  public:
   VoxelPainter(const VoxelGrid& grid, VoxelLabel background);
 
-  /// Returns the index of a class name and adds the name if it is new.
-  /// @throws std::length_error if there would be more than kMaxMapClasses
-  std::uint8_t class_index(const std::string& name);
+  /// Returns index_of_class() among the map's names.
+  std::uint8_t class_index(const std::string& name) { return index_of_class(name, map_.class_names); }
   /// Labels a voxel unless it has an equal or a stronger label already. @pre index in [0, grid().voxels())
   void paint(std::int64_t index, VoxelLabel label, std::uint8_t class_index);
   /// Labels the voxels that overlap `region` and for whose box `inside` returns true.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/random.h"
+#include "core/world/message_limits.h"
 #include "semantic_mapper/sources/octomap.h"
 #include "semantic_mapper/voxel_map/ray_walk.h"
 #include "semantic_mapper/voxel_map/voxel_painter.h"
@@ -178,6 +179,13 @@ TEST(LiveMap, TheVehicleDoesNotStandInItsMap) {
   EXPECT_EQ(stands.version, stands.compute_version());
 }
 
+TEST(LiveMap, AVehicleThatIsSaidToBeInAWallOfAFileDoesNotFreeIt) {
+  VoxelMap walls = unknown_map({10, 1, 4});
+  walls.labels[4] = VoxelLabel::Occupied;
+  const LiveMap map(walls, {}, kRange);
+  EXPECT_EQ(map.map(ball(), Vec3(2.25, 0.25, 0.6)).labels[4], VoxelLabel::Occupied);
+}
+
 TEST(LiveMap, UnseenSpaceAroundTheStartIsFree) {
   LiveMap map(unknown_map({10, 10, 10}), {}, kRange);
   map.add(scan_to({Vec3(2.25, 2.25, 1.25)}, Vec3(2.25, 2.25, 4.75)));
@@ -231,6 +239,15 @@ TEST(LiveMap, MakesOfAScanTheMapThatOctoMapMakes) {
 
 TEST(LiveMap, RefusesAMapThatIsTooLarge) {
   EXPECT_THROW(LiveMap(unknown_map({1000, 1000, 21}), {}, kRange), std::invalid_argument);
+}
+
+TEST(LiveMap, RefusesMoreClassesThanAMapCanName) {
+  ClassMeanings classes;
+  for (std::size_t i = 0; i < 254; ++i) classes[i] = ClassMeaning{"class_" + std::to_string(i), VoxelLabel::Occupied};
+  const LiveMap full(unknown_map({1, 1, 1}), classes, kRange);
+  EXPECT_EQ(std::ssize(now(full).class_names), kMaxMapClasses);
+  classes[254] = ClassMeaning{"class_254", VoxelLabel::Occupied};
+  EXPECT_THROW(LiveMap(unknown_map({1, 1, 1}), classes, kRange), std::length_error);
 }
 
 }  // namespace

@@ -115,6 +115,23 @@ TEST_F(LiveMapperTest, MessagesOfOneTimeAreOneScan) {
   EXPECT_EQ(label_at({8.1, 5, 1}), VoxelLabel::Occupied);
 }
 
+TEST_F(LiveMapperTest, AMessageOfAnotherRangeIsAnotherScan) {
+  CloudScan unlimited;
+  unlimited.at = runner_.now();
+  unlimited.sensor_position = Vec3(1, 5, 1);
+  unlimited.points = {{Eigen::Vector3f(0, 4, 0), 0}};
+  CloudScan limited = unlimited;
+  limited.range_m = 2.0;
+  limited.points = {{Eigen::Vector3f(8, 0, 0), 0}};
+  runner_.observer().publish(channels::kPointCloud, unlimited);
+  runner_.observer().publish(channels::kPointCloud, limited);
+  run(1.2);
+  EXPECT_EQ(label_at({1.1, 9.1, 1}), VoxelLabel::Occupied);
+  EXPECT_EQ(label_at({2.6, 5, 1}), VoxelLabel::Free);
+  EXPECT_EQ(label_at({6, 5, 1}), VoxelLabel::Unknown);
+  EXPECT_EQ(label_at({9.1, 5, 1}), VoxelLabel::Unknown);
+}
+
 TEST_F(LiveMapperTest, ADepthImageBecomesOccupiedAndFreeVoxels) {
   DepthImage image;
   image.sensor_position = Vec3(1, 5, 1);
@@ -149,6 +166,41 @@ TEST(LiveIntake, PlacesPixelsByThePinholeModel) {
   ASSERT_EQ(scan.points.size(), 2u);
   EXPECT_LT((scan.points[0].position - Vec3(12, 20, 30)).norm(), 1e-12) << "on the optical axis, along x";
   EXPECT_LT((scan.points[1].position - Vec3(11, 20.01, 29.995)).norm(), 1e-12) << "left of it and below";
+}
+
+/// Collects scans, and never adds them by itself.
+struct Collector : Node {
+  explicit Collector(Bus& bus) : intake(bus) {}
+  [[nodiscard]] UTime next_wakeup() const override { return kNever; }
+  void step(UTime) override {}
+  [[nodiscard]] NodeHealth health() const override { return {}; }
+  LiveIntake intake;
+};
+
+TEST(LiveIntake, OfAFloodTheNewestScanIsAddedAndTheOthersAreCounted) {
+  VirtualRunner runner;
+  auto& collector =
+      dynamic_cast<Collector&>(runner.start("tern-mapper", [](Bus& bus) { return std::make_unique<Collector>(bus); }));
+  CloudScan part;
+  part.sensor_position = Vec3(1, 5, 1);
+  part.points.assign(kMaxCloudPointsPerMessage, {});
+  for (const float x : {2.0F, 4.0F, 6.0F}) {
+    part.at = runner.now();
+    for (CloudPoint& point : part.points) point.position = Eigen::Vector3f(x, 0, 0);
+    for (std::size_t sent = 0; sent < kMaxScanPoints; sent += part.points.size()) {
+      runner.observer().publish(channels::kPointCloud, part);
+    }
+    runner.run(runner.now() + Duration{1'000});
+  }
+  VoxelMap base = support::free_map({40, 40, 8});
+  std::fill(base.labels.begin(), base.labels.end(), VoxelLabel::Unknown);
+  LiveMap map(base, {}, {});
+  EXPECT_EQ(collector.intake.add_to(map, runner.now() + kScanParts), 1);
+  EXPECT_EQ(collector.intake.left_out(), 2);
+  const VoxelMap now = map.map({}, Vec3(1e3, 0, 0));
+  const auto label_at = [&](double x) { return now.labels[idx(now.grid.index(now.grid.cell_of({x, 5, 1})))]; };
+  EXPECT_EQ(label_at(7.1), VoxelLabel::Occupied);
+  EXPECT_EQ(label_at(3.1), VoxelLabel::Free);
 }
 
 TEST(LiveIntake, PointsThatAreNotFiniteGiveNone) {

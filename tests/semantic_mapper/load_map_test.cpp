@@ -174,6 +174,35 @@ TEST_F(LoadMapTest, ACloudThatMarksNoVoxelIsRefusedWithWhatItHolds) {
               HasSubstr("min_points: no voxel has 1000 marks of one label"));
 }
 
+TEST_F(LoadMapTest, ASourceBesideTheFlightBoxIsUsedOnlyIfExtentsReachFromTheBoxToIt) {
+  const auto warns_of = [](const char* text) {
+    return testing::Contains(testing::AllOf(testing::Field(&MapRemark::text, HasSubstr(text)),
+                                            testing::Field(&MapRemark::is_warning, true)));
+  };
+  const std::string both = "extents: {min: [-2, -6, 0], max: [24, 6, 16]}, ";
+  const std::string apart = "extents: {min: [-2, -6, 7], max: [24, 6, 16]}, ";
+  write("leaves.ply", support::ply_file(wall(6, Vec3(0, 0, 8)), support::PlyKind::Little));
+  const LoadedMap leaves = load_all(with_source("file: leaves.ply", both));
+  EXPECT_GT(count(leaves.map, VoxelLabel::Occupied), 250);
+  EXPECT_THAT(leaves.remarks,
+              warns_of("no point lies in or near uav.flight_box: the cloud reaches from (10.05, -3, 8)"));
+  EXPECT_THAT(error_of(with_source("file: leaves.ply")),
+              HasSubstr("a cloud beside the box needs mapper.extents that contain both"));
+  EXPECT_THAT(error_of(with_source("file: leaves.ply", apart)), HasSubstr("no point lies in or near uav.flight_box"));
+  EXPECT_THAT(error_of(with_source("file: leaves.ply, origin: [0, 0, 30]", both)),
+              HasSubstr("no point lies inside mapper.extents"))
+      << "another frame";
+
+  write("roof.bt", support::octomap_file(std::vector<VoxelLabel>(8, VoxelLabel::Occupied), 2, true));
+  const std::string roof = "file: roof.bt, origin: [-5, 0, -8]";
+  const LoadedMap roofed = load_all(with_source(roof, both));
+  EXPECT_GT(count(roofed.map, VoxelLabel::Occupied), 0);
+  EXPECT_THAT(roofed.remarks, warns_of("no cube lies in or near uav.flight_box"));
+  EXPECT_THAT(error_of(with_source(roof)), HasSubstr("none lies in or near uav.flight_box"));
+  EXPECT_THAT(error_of(with_source(roof, apart)), HasSubstr("none lies in or near uav.flight_box"));
+  EXPECT_THAT(error_of(with_source("file: roof.bt, origin: [0, 0, 30]", both)), HasSubstr("inside mapper.extents"));
+}
+
 TEST_F(LoadMapTest, ASourceNamesItsClassPropertyAndWhatItsNumbersMean) {
   write("rue.ply", support::ply_file(wall(4), support::PlyKind::Big, "sem_class"));
   EXPECT_GT(count(load(with_source("file: rue.ply, label: sem_class, classes: {4: repulsive}")), VoxelLabel::Repulsive),

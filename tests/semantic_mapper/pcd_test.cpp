@@ -75,6 +75,10 @@ TEST(Pcd, WithoutAClassHasNoLabelsAndTakesTheFieldThatIsNamed) {
   EXPECT_EQ(parse_pcd(bytes, "cloud.pcd", {}, "intensity")->points[1].class_number, 255);
   EXPECT_THAT(parse_pcd(bytes, "cloud.pcd", {}, "sem").error().message,
               HasSubstr("no property sem for the class among x, y, z, _"));
+  for (const PcdKind kind : kKinds) {
+    EXPECT_THAT(parse_pcd(pcd_file(kPoints, kind), "cloud.pcd", {}, "_").error().message,
+                HasSubstr("the field _ is padding"));
+  }
 }
 
 TEST(Pcd, LeavesOutAndCountsInvalidPixelsAndSaysThatTheViewpointIsNotApplied) {

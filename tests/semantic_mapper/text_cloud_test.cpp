@@ -59,6 +59,12 @@ TEST(TextCloud, NamesLineAndOffsetOfWhatItRefuses) {
   EXPECT_THAT(error_of("1 2\n"), HasSubstr("2 numbers in a line (a point has at least 3)"));
   EXPECT_THAT(error_of("a b c\n1 2 3\n"), HasSubstr("no property x among a, b, c"));
   EXPECT_THAT(error_of("x y z\n1 2 3\n", "sem"), HasSubstr("no property sem for the class among x, y, z"));
+  std::string columns;
+  for (std::size_t i = 0; i <= kMaxTextColumns; ++i) columns += "1 ";
+  EXPECT_THAT(error_of(columns), HasSubstr("line 1: more than 256 columns"));
+  EXPECT_THAT(error_of("1 2 3\n" + std::string(kMaxTextLine, '1') + "1"),
+              HasSubstr("line 2: 65537 bytes (limit 65536)"));
+  EXPECT_EQ(error_of("#" + std::string(kMaxTextLine, '1') + "\n1 2 3"), "");
   EXPECT_EQ(error_of(""), "") << "no points; the report of the cloud refuses it";
 }
 
