@@ -89,8 +89,8 @@ const char* to_string(Stage stage);
 /// p and v are those of half a period later. An ArduPilot extrapolates, so p and v are those of now. The bridge also
 /// sends HEARTBEAT at 2 Hz, TIMESYNC at 10 Hz, and in flight a request for the autopilot's HEARTBEAT at 5 Hz.
 ///
-/// When a flight with a PX4 ends, the log has drag and lag as measured (FlightIdentification), and the settings that
-/// they ask for.
+/// When a flight with a PX4 ends, the log has drag and lag as measured, and the settings that they ask for. The lines
+/// are missing if FlightIdentification has no answer.
 ///
 /// **Parameters.** With set_parameters, those that decide what happens after a loss, and those of the estimator, are
 /// written in stage Waiting. Bounds of the vehicle (speed, tilt, rates) are written only with raise_bounds: otherwise
@@ -259,6 +259,7 @@ class Bridge {
   struct Original {
     double value = 0.0;
     bool integer = false;
+    bool asked_back = false;  ///< it was sent back: from then on the autopilot's answer counts
   };
   std::map<std::string, Original> originals_;  ///< of the parameters that were set
   bool ends_ = false;

@@ -66,7 +66,7 @@ void Bridge::request_parameters(UTime now) {
     if (read && r.allows(known->second)) continue;
     if (read && writes && r.may_be_written(config_.raise_bounds)) {
       log_lines_.push_back(fmt::format("sets {} to {:g} (it was {:g})", r.name, r.recommended, known->second));
-      originals_.try_emplace(r.name, Original{known->second, r.integer});
+      originals_.try_emplace(r.name, Original{known->second, r.integer}).first->second.asked_back = false;
       write_parameter(r.name, r.recommended, r.integer);
     }
     send(ParamRequestRead{
@@ -85,17 +85,20 @@ void Bridge::write_parameter(const std::string& name, double value, bool integer
       .param_type = bytewise ? kInt32 : kReal32});
 }
 
-/// The autopilot answers each PARAM_SET with the new value.
+/// The autopilot answers each PARAM_SET with the new value. An original value that is known from before may be stale:
+/// the answer to the write was lost, or is on its way.
 void Bridge::set_back_parameters(UTime now) {
   if (originals_.empty() || now < next_parameters_ || autopilot_.armed() || !autopilot_.linked(now)) return;
   next_parameters_ = now + kFirstParameterPeriod;
   std::erase_if(originals_, [&](const auto& entry) {
     const auto& [name, original] = entry;
-    if (autopilot_.parameter(name, original.value) == original.value) return true;
+    return original.asked_back && autopilot_.parameter(name, original.value) == original.value;
+  });
+  for (auto& [name, original] : originals_) {
     log_lines_.push_back(fmt::format("sets {} back to {:g}", name, original.value));
     write_parameter(name, original.value, original.integer);
-    return false;
-  });
+    original.asked_back = true;
+  }
 }
 
 void Bridge::receive_vision(const UavState& seen) {

@@ -51,7 +51,7 @@ class FlightIdentification {
     double share = 0.0;       ///< γ: of the commanded acceleration
     double moved_s = 0.0;     ///< time in motion
   };
-  /// @return nullopt after too little motion, or if it does not determine k and τ
+  /// @return nullopt after too little motion, if k or τ is uncertain, or if γ is off 1 by more than 15 %
   [[nodiscard]] std::optional<Answer> answer() const;
 
  private:

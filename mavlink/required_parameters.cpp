@@ -159,7 +159,7 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
 
 namespace {
 
-/// What is wrong with a parameter that was read.
+/// Returns the fault of a parameter that was read: its value is not allowed.
 std::string fault_of(const RequiredParameter& r, double value) {
   if (r.bound) {
     const double largest = r.bound->largest(value);
@@ -171,6 +171,12 @@ std::string fault_of(const RequiredParameter& r, double value) {
                             : std::isfinite(r.high) ? fmt::format("not within [{:g}, {:g}]", r.low, r.high)
                                                     : fmt::format("below {:g}", r.low);
   return fmt::format("{} is {:g}, {}: {}", r.name, value, range, r.why);
+}
+
+/// Whether it is a fault that this parameter was not read.
+bool is_missed(const RequiredParameter& r, const std::map<std::string, double>& values, bool all_asked) {
+  if (r.may_be_absent && all_asked) return false;
+  return r.also_called == nullptr || !values.contains(r.also_called);
 }
 
 std::string joined(const std::vector<std::string>& texts) { return fmt::format("{}", fmt::join(texts, "; ")); }
@@ -186,9 +192,7 @@ std::string parameter_faults(const std::vector<RequiredParameter>& required,
       if (!r.allows(found->second)) faults.push_back(fault_of(r, found->second));
       continue;
     }
-    if (r.may_be_absent && all_asked) continue;
-    if (r.also_called != nullptr && values.contains(r.also_called)) continue;
-    faults.push_back(fmt::format("{} was not read", r.name));
+    if (is_missed(r, values, all_asked)) faults.push_back(fmt::format("{} was not read", r.name));
   }
   return joined(faults);
 }
@@ -198,7 +202,11 @@ std::string parameter_changes(const std::vector<RequiredParameter>& required,
   std::vector<std::string> changes;
   for (const RequiredParameter& r : required) {
     const auto found = values.find(r.name);
-    if (found == values.end() || r.allows(found->second)) continue;
+    if (found == values.end()) {
+      if (is_missed(r, values, true)) changes.push_back(fmt::format("{} was not read", r.name));
+      continue;
+    }
+    if (r.allows(found->second)) continue;
     changes.push_back(r.may_be_written(raise_bounds)
                           ? fmt::format("would set {} to {:g} (it is {:g})", r.name, r.recommended, found->second)
                           : fault_of(r, found->second));

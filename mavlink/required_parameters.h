@@ -57,7 +57,8 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
 std::string parameter_faults(const std::vector<RequiredParameter>& required,
                              const std::map<std::string, double>& values, bool all_asked);
 
-/// Returns what set_parameters would write: "would set COM_OBL_RC_ACT to 4 (it is 0)", and the remaining faults.
+/// Returns what set_parameters would write: "would set COM_OBL_RC_ACT to 4 (it is 0)", and the remaining faults. All
+/// parameters have been requested often enough that a missing one is absent.
 std::string parameter_changes(const std::vector<RequiredParameter>& required,
                               const std::map<std::string, double>& values, bool raise_bounds);
 

@@ -47,7 +47,9 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
 MavlinkNode::~MavlinkNode() {
   if (!exit_code_ && bridge_.flies()) land();
   if (bridge_.has_set_parameters()) {
-    log::error("parameters of the autopilot were not set back: it is armed or silent (\"sets …\" above has them)");
+    log::error(
+        "parameters of the autopilot were not set back, since it is armed or silent, or an error ended this process: "
+        "the lines \"sets …\" above have the old values");
   }
 }
 
@@ -104,13 +106,13 @@ bool MavlinkNode::end(UTime now) {
 void MavlinkNode::finish_if_disarmed(UTime now) {
   const bool is_known = bridge_.autopilot().address() || now - begun_ > kFirstHeartbeat;
   if (exit_code_ || !is_known) return;
-  if (is_needed()) disarmed_since_.reset();
   if (!is_needed()) {
     if (!disarmed_since_) disarmed_since_ = now;
     if (bridge_.has_set_parameters() && now - *disarmed_since_ < kSetBackPatience) return;
     if (bridge_.stage() == Stage::Landed) log::info("the autopilot has landed");
     return finish(0);
   }
+  disarmed_since_.reset();
   const Duration silence = now - bridge_.autopilot().last_received();
   if (silence > kLinkPatience) return end_armed(fmt::format("no message for {:.0f} s", silence.seconds()));
   if (now < next_report_) return;

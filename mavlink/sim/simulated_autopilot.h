@@ -75,7 +75,7 @@ struct SimulatedAutopilotConfig {
 /// - If ODOMETRY comes back after more than 0.4 s, the estimate of such a vehicle jumps up by SIM_EV_JUMP, and back
 ///   after 5 s. The default is 8.3 m, as measured. Setpoints stay where they were sent; own modes move along.
 /// - Any system may command it, with the right target. REQUEST_MESSAGE may be for all systems. Requests for unknown
-/// parameters get no answer.
+///   parameters get no answer.
 /// - The velocity loop has the D term MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
 /// - ArduPilot's home is where it was armed, shifted up by SIM_HOME_UP.
 ///

@@ -1,8 +1,9 @@
-// What the bridge writes to an autopilot, and the bounds of the vehicle that it leaves alone.
+// Parameters that the bridge writes to an autopilot, and bounds of the vehicle that it does not raise.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "mavlink/bridge.h"
+#include "mavlink/required_parameters.h"
 #include "tests/mavlink/flight_in_memory.h"
 
 namespace tern::mavlink {
@@ -87,6 +88,25 @@ TEST(VehicleBounds, ADryRunListsWhatWouldBeWrittenAndWritesNothing) {
   EXPECT_THAT(flight.words, Not(Contains(HasSubstr("sets "))));
 }
 
+TEST(VehicleBounds, ADryRunNamesParametersThatWereNotRead) {
+  const std::string changes = parameter_changes(required_parameters(Firmware::Px4, racer(), 1, true, false), {}, false);
+  EXPECT_THAT(changes, AllOf(HasSubstr("COM_OBL_RC_ACT was not read"), HasSubstr("MPC_TILTMAX_AIR was not read")));
+  EXPECT_THAT(changes, Not(HasSubstr("MC_ROLL_P"))) << "it may be absent";
+}
+
+TEST(VehicleBounds, ABridgeThatEndsBeforeItsWritesAreAnsweredSetsThemBackAsWell) {
+  FlightInMemory flight(kSets);
+  flight.set_parameter("SIM_ARM_REFUSE", 1.0F);
+  flight.faults.delay_from = flight.faults.delay_to = Duration{200'000};
+  bool written = false;
+  flight.sent = [&](const Frame& frame) { written = written || from_frame<ParamSet>(frame).has_value(); };
+  while (!written) flight.run(0.002);
+  flight.bridge.end_parameters();
+  ASSERT_TRUE(flight.run_until([&] { return !flight.bridge.has_set_parameters(); }, 3.0));
+  flight.run(1.0);
+  expect_values(flight, kChanged);
+}
+
 TEST(VehicleBounds, ABridgeThatEndsOnTheGroundSetsBackWhatItHasSet) {
   FlightInMemory flight(kSets);
   flight.set_parameter("SIM_ARM_REFUSE", 1.0F);
@@ -98,7 +118,7 @@ TEST(VehicleBounds, ABridgeThatEndsOnTheGroundSetsBackWhatItHasSet) {
   expect_values(flight, kChanged);
 }
 
-TEST(VehicleBounds, WhatWasSetIsNotSetBackInFlight) {
+TEST(VehicleBounds, ParametersAreNotSetBackInFlight) {
   FlightInMemory flight(kSets);
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   flight.bridge.end_parameters();

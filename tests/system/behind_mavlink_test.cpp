@@ -45,7 +45,7 @@ TEST(BehindMavlink, AQuietStartKeepsTheTubeNarrowAndFiftyObstaclesArePassed) {
   }
 }
 
-/// An estimate as by GPS: 0.3 m off, and reported as uncertain by 0.4 m.
+/// An estimate as by GPS: off by 0.4 m per axis (1 σ), and reported as that uncertain.
 TEST(BehindMavlink, ByGpsAnEmptyWorldIsFlownThatHasRoomForTheTube) {
   SimulatedAutopilotConfig gps = sih();
   gps.estimator.position_sigma_m = 0.4;
