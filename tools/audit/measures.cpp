@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -17,7 +18,15 @@ constexpr double kStep = 0.001;  ///< s; the width of the bounds is quadratic in
 /// Most steps of one span. After a long gap the bounds are wide in any case.
 constexpr double kMaxSteps = 10'000.0;
 
-constexpr double kChord = 0.5;  ///< s; 5 cm of noise are 1 % of a chord at 3 m/s
+/// Least time of a chord between noisy positions, s. Noise of 5 cm per axis lengthens one at 3 m/s by 0.2 %.
+constexpr double kNoisyChord = 0.5;
+
+/// Returns the least time of a chord between recorded positions, s. Those of the simulator's own vehicle are exact.
+double least_chord(const FlightRecord& record) {
+  if (record.states.empty() || record.results.empty()) return kNoisyChord;
+  const std::int64_t referee = record.results.back().header.name.sender_epoch_us;
+  return record.states.front().header.name.sender_epoch_us == referee ? 0.0 : kNoisyChord;
+}
 
 /// A time step of the flight, so short that the motion is nearly straight.
 struct Step {
@@ -62,7 +71,8 @@ Step step_of(const MotionSpan& span, double a, double b) {
 
 class Measuring {
  public:
-  Measuring(const FlightRecord& record, const Window& window) : record_(record), window_(window) {
+  Measuring(const FlightRecord& record, const Window& window)
+      : record_(record), window_(window), least_chord_s_(least_chord(record)) {
     for (const Region& region : record.regions) measures_.regions.emplace_back().region = region.name;
   }
 
@@ -104,12 +114,12 @@ class Measuring {
   }
 
  private:
-  /// Adds chords between measured positions at least kChord apart. Positions of an aircraft are estimates: chords from
-  /// each to the next would add their noise to the path.
+  /// Adds chords between recorded positions at least least_chord_s_ apart. Positions of an aircraft are measured:
+  /// chords from each to the next would add their noise to the path.
   void take_chord(double begin_s, const MotionSpan& span) {
     if (!chord_from_) chord_from_ = {begin_s, span.curve.p(0.0)};
     const double end_s = begin_s + span.curve.length_s();
-    if (end_s - chord_from_->first < kChord) return;
+    if (end_s - chord_from_->first < least_chord_s_) return;
     const Vec3 end = span.curve.p(span.curve.length_s());
     measures_.path_m.low += (end - chord_from_->second).norm();
     chord_from_ = {end_s, end};
@@ -185,6 +195,7 @@ class Measuring {
 
   const FlightRecord& record_;
   Window window_;
+  double least_chord_s_;
   Measures measures_;
   std::vector<Step> steps_;
   std::optional<std::pair<double, Vec3>> chord_from_;  ///< begin of the chord: s in the window, and position, m
