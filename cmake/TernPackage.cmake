@@ -5,7 +5,6 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(TERN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tern)
-set(TERN_COMPONENTS core messages planner predictor replay)  # each one after those that it needs
 
 # tern_component(NAME LIBRARIES … HEADERS … [NOT …] [REQUIRES …] [LINKS …] ABOUT …)
 #   LIBRARIES  targets, in the order in which a linker wants static libraries; tern_x is exported as tern::x

@@ -252,7 +252,9 @@ void bind_world(py::module_& m) {
   using namespace py::literals;
   bind_track(m);
   bind_map_and_config(m);
-  py::class_<PreparedWorld>(m, "World", "Everything that a plan depends on besides its request. It never changes.")
+  py::class_<PreparedWorld>(m, "World",
+                            "The inputs of a plan besides its request: tracks, map, goal and settings. A World never "
+                            "changes.")
       .def(
           py::init(&world_of), "vehicle"_a, "goal"_a, "tracks"_a = std::vector<Track>(), "map"_a = py::none(),
           "config"_a = py::none(), py::kw_only(), "start"_a = py::none(), "made_at_us"_a = 1'000'000,

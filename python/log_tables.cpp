@@ -9,42 +9,19 @@
 
 #include "flight_log/flight_log.h"
 #include "messages/codec.h"
+#include "ros_messages/message_types.h"
+#include "ros_messages/wire_reader.h"
 #include "tools/export/columns.h"
 #include "tools/export/shortfalls.h"
 
 namespace tern::python {
 namespace {
 
-using exporting::message_types;
-using exporting::MessageField;
-using exporting::MessageType;
+using ros::message_types;
+using ros::MessageField;
+using ros::MessageType;
+using ros::WireReader;
 using Form = MessageField::Form;
-
-constexpr std::size_t kFingerprintBytes = 8;
-
-/// Big-endian values, one after the other, of bytes that encode() made.
-class Wire {
- public:
-  explicit Wire(std::span<const std::uint8_t> bytes) : rest_(bytes.subspan(kFingerprintBytes)) {}
-
-  std::string_view text(std::size_t n) {
-    const auto* bytes = reinterpret_cast<const char*>(take(n).data());
-    return {bytes, n};
-  }
-  std::uint64_t integer(std::size_t n) {
-    std::uint64_t x = 0;
-    for (const std::uint8_t byte : take(n)) x = x << 8U | byte;
-    return x;
-  }
-
- private:
-  std::span<const std::uint8_t> take(std::size_t n) {
-    const auto taken = rest_.first(n);
-    rest_ = rest_.subspan(n);
-    return taken;
-  }
-  std::span<const std::uint8_t> rest_;
-};
 
 /// Appends messages to their tables.
 class TableWriter {
@@ -60,7 +37,7 @@ class TableWriter {
     Cursor cursor(table);
     cursor.append(message);
     cursor.append(received_us);
-    Wire wire(bytes);
+    WireReader wire(bytes);
     std::map<std::string_view, std::size_t> counts;
     for (const MessageField& field : type.fields) {
       const std::size_t size = field.form == Form::FixedArray ? static_cast<std::size_t>(field.size)
@@ -69,7 +46,8 @@ class TableWriter {
       if (field.form == Form::List) {
         add_list(channel + "." + field.name, field, message, size, wire);
       } else if (field.form == Form::Text) {
-        cursor.append(std::string(wire.text(size)));
+        const auto text = wire.take(size);
+        cursor.append(std::string(text.begin(), text.end()));
       } else {
         for (std::size_t k = 0; k < size; ++k) {
           const std::int64_t value = add_value(field, wire, cursor);
@@ -110,7 +88,7 @@ class TableWriter {
   }
 
   void add_list(const std::string& name, const MessageField& field, std::int64_t message, std::size_t size,
-                Wire& wire) {
+                WireReader& wire) {
     std::vector<Column>& table = tables_[name];
     for (std::size_t k = 0; k < size; ++k) {
       Cursor cursor(table);
@@ -121,17 +99,17 @@ class TableWriter {
   }
 
   /// Appends one value, or the fields of a nested one. @return the value of an integer
-  static std::int64_t add_value(const MessageField& field, Wire& wire, Cursor& row) {
+  static std::int64_t add_value(const MessageField& field, WireReader& wire, Cursor& row) {
     const std::string& type = field.type;
     std::int64_t value = 0;
     if (type == "double") {
-      row.append(std::bit_cast<double>(wire.integer(8)));
+      row.append(std::bit_cast<double>(wire.unsigned_integer(8)));
     } else if (type == "float") {
-      row.append(static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(wire.integer(4)))));
+      row.append(static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(wire.unsigned_integer(4)))));
     } else if (type == "boolean") {
-      row.append(static_cast<std::uint8_t>(wire.integer(1) != 0));
+      row.append(static_cast<std::uint8_t>(wire.unsigned_integer(1) != 0));
     } else if (field.digest) {
-      row.append(fmt::format("{:#018x}", wire.integer(8)));
+      row.append(fmt::format("{:#018x}", wire.unsigned_integer(8)));
     } else if (const auto nested = message_types().find(type); nested != message_types().end()) {
       for (const MessageField& inner : nested->second.fields) {
         const int size = inner.form == Form::FixedArray ? inner.size : 1;
@@ -144,12 +122,12 @@ class TableWriter {
     return value;
   }
 
-  static std::int64_t signed_integer(std::string_view type, Wire& wire) {
-    if (type == "int64_t") return static_cast<std::int64_t>(wire.integer(8));
-    if (type == "int32_t") return static_cast<std::int32_t>(wire.integer(4));
-    if (type == "int16_t") return static_cast<std::int16_t>(wire.integer(2));
-    if (type == "int8_t") return static_cast<std::int8_t>(wire.integer(1));
-    return static_cast<std::int64_t>(wire.integer(1));  // byte
+  static std::int64_t signed_integer(std::string_view type, WireReader& wire) {
+    if (type == "int64_t") return static_cast<std::int64_t>(wire.unsigned_integer(8));
+    if (type == "int32_t") return static_cast<std::int32_t>(wire.unsigned_integer(4));
+    if (type == "int16_t") return static_cast<std::int16_t>(wire.unsigned_integer(2));
+    if (type == "int8_t") return static_cast<std::int8_t>(wire.unsigned_integer(1));
+    return static_cast<std::int64_t>(wire.unsigned_integer(1));  // byte
   }
 
   Tables& tables_;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "tools/export/message_types.h"
 
 namespace tern::python {
 

@@ -25,23 +25,22 @@ namespace {
 
 /// The longest flight of any scenario, virtual time.
 constexpr Duration kMaxFlight{3600LL * 1'000'000};
-/// Worlds of so many weights are kept.
+/// Worlds of so many weights are kept: those that were used last.
 constexpr std::size_t kWorldsKept = 8;
 
 }  // namespace
 
-/// The planner's place in the flight: it receives what a planner receives, and
-/// sends the caller's answers.
+/// The planner's place in the flight: it receives what a planner receives, and sends the caller's answers.
 class SteppedPlanner final : public Node {
  public:
-  SteppedPlanner(Bus &bus, const PlannerConfig &config, std::uint64_t configuration_hash)
+  SteppedPlanner(Bus& bus, const PlannerConfig& config, std::uint64_t configuration_hash)
       : bus_(bus), config_(config), configuration_hash_(configuration_hash) {
-    bus.subscribe(channels::kPredictions, [this](const TrackSet &batch) { receive(batch); });
-    bus.subscribe(channels::kSemanticMap, [this](const MapChunk &chunk) { receive(chunk); });
-    bus.subscribe(channels::kGoal, [this](const Goal &goal) {
+    bus.subscribe(channels::kPredictions, [this](const TrackSet& batch) { receive(batch); });
+    bus.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { receive(chunk); });
+    bus.subscribe(channels::kGoal, [this](const Goal& goal) {
       if (!goal_ || goal.id >= goal_->id) goal_ = goal;
     });
-    bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest &request) {
+    bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& request) {
       open_ = request;
       asked_at_ = bus_.clock().now();
     });
@@ -60,9 +59,9 @@ class SteppedPlanner final : public Node {
     return {ProcessState::Ready, ""};
   }
 
-  [[nodiscard]] const std::optional<HorizonRequest> &open() const { return open_; }
+  [[nodiscard]] const std::optional<HorizonRequest>& open() const { return open_; }
   void drop() { open_.reset(); }
-  [[nodiscard]] const PlannerConfig &config() const { return config_; }
+  [[nodiscard]] const PlannerConfig& config() const { return config_; }
 
   void answer(Plan plan) {
     plan.inputs.configuration_hash = configuration_hash_;
@@ -72,8 +71,8 @@ class SteppedPlanner final : public Node {
     open_.reset();
   }
 
-  PreparedWorld world(const VirtualFlight::Weights &weights) {
-    Fields &fields = fields_of(weights);
+  PreparedWorld world(const VirtualFlight::Weights& weights) {
+    Fields& fields = fields_of(weights);
     PlanningWorld world;
     world.predictions = predictions_;
     if (map_) {
@@ -98,21 +97,24 @@ class SteppedPlanner final : public Node {
     std::shared_ptr<const GoalProducts> goal;
   };
 
-  void receive(const TrackSet &batch) {
+  void receive(const TrackSet& batch) {
     auto set = batches_.add(batch);
     if (!set) return;
     TrackSet whole = join_batches(std::move(*set));
     statics_.add(whole);
     predictions_ = std::make_shared<const PredictionProducts>(std::move(whole));
   }
-  void receive(const MapChunk &chunk) {
+  void receive(const MapChunk& chunk) {
     if (assembler_.add(chunk).value_or(false)) map_ = assembler_.take();
   }
 
-  Fields &fields_of(const VirtualFlight::Weights &weights) {
+  Fields& fields_of(const VirtualFlight::Weights& weights) {
     const std::pair key(weights.attractive, weights.repulsive);
     const auto known = std::ranges::find(fields_, key, &std::pair<std::pair<double, double>, Fields>::first);
-    if (known != fields_.end()) return known->second;
+    if (known != fields_.end()) {
+      std::rotate(known, known + 1, fields_.end());
+      return fields_.back().second;
+    }
     if (fields_.size() == kWorldsKept) fields_.erase(fields_.begin());
     Fields made;
     made.config = config_;
@@ -121,9 +123,8 @@ class SteppedPlanner final : public Node {
     return fields_.emplace_back(key, std::move(made)).second;
   }
 
-  /// Makes the field of distances again if goal, map, static tracks or the
-  /// vehicle's box are new.
-  std::shared_ptr<const GoalProducts> goal_of(const Fields &fields) const {
+  /// Makes the field of distances again if goal, map, static tracks or the vehicle's box are new.
+  std::shared_ptr<const GoalProducts> goal_of(const Fields& fields) const {
     const GoalFieldKey key{goal_->position, fields.map->version, statics_.digest(),
                            body_box(grown(open_->body, open_->tube)), open_->flight_box};
     const bool same = fields.goal && fields.goal->field && fields.goal->key == key;
@@ -136,7 +137,7 @@ class SteppedPlanner final : public Node {
     return std::make_shared<const GoalProducts>(GoalProducts{*goal_, key, std::move(field), from});
   }
 
-  Bus &bus_;
+  Bus& bus_;
   PlannerConfig config_;
   std::uint64_t configuration_hash_;
   BatchCollector<TrackSet> batches_;
@@ -148,18 +149,18 @@ class SteppedPlanner final : public Node {
   std::optional<HorizonRequest> open_;
   UTime asked_at_, due_;
   std::optional<Plan> answer_;                                        ///< that is not due yet
-  std::vector<std::pair<std::pair<double, double>, Fields>> fields_;  ///< by weights, the newest last
+  std::vector<std::pair<std::pair<double, double>, Fields>> fields_;  ///< by weights, the last used one last
 };
 
-VirtualFlight::VirtualFlight(const std::string &scenario_file, const std::vector<std::string> &settings)
+VirtualFlight::VirtualFlight(const std::string& scenario_file, const std::vector<std::string>& settings)
     : system_(std::make_unique<VirtualSystem>(scenario_file, settings)) {
   ConfigDocument document = ConfigDocument::load(scenario_file, settings);
   const Scenario scenario = read_scenario(document);
   const PlannerConfig config = read_planner_config(document.root().section("planner"), scenario.semantics);
   const std::string yaml = document.effective();
   system_->stop("tern-planner");
-  planner_ = static_cast<SteppedPlanner *>(&system_->runner().start(
-      "tern-planner", [&](Bus &bus) { return std::make_unique<SteppedPlanner>(bus, config, configuration_hash(yaml)); },
+  planner_ = static_cast<SteppedPlanner*>(&system_->runner().start(
+      "tern-planner", [&](Bus& bus) { return std::make_unique<SteppedPlanner>(bus, config, configuration_hash(yaml)); },
       yaml));
   watch_ = std::make_unique<FlightWatch>(system_->scenario(), system_->runner().now());
   subscribe_flight(system_->runner().observer(), *watch_);
@@ -171,7 +172,7 @@ VirtualFlight::~VirtualFlight() { system_.reset(); }
 bool VirtualFlight::advance() {
   if (ending_) return false;
   planner_->drop();
-  VirtualRunner &runner = system_->runner();
+  VirtualRunner& runner = system_->runner();
   const auto stops = [&] { return planner_->open() || (ending_ = watch_->ending(runner.now())); };
   const RunResult run = runner.run(runner.now() + kMaxFlight, stops);
   if (run.end == RunEnd::Finished && !ending_) ending_ = {FlightOutcome::Failed, run.process + " ended"};
@@ -179,7 +180,7 @@ bool VirtualFlight::advance() {
   return !ending_;
 }
 
-const HorizonRequest &VirtualFlight::request() const {
+const HorizonRequest& VirtualFlight::request() const {
   if (!planner_->open()) throw std::logic_error("no request is open; the flight waits for advance(), or has ended");
   return *planner_->open();
 }
@@ -188,7 +189,7 @@ VirtualFlight::Weights VirtualFlight::weights() const {
   return {planner_->config().lambda_attractive, planner_->config().lambda_repulsive};
 }
 
-PreparedWorld VirtualFlight::world(const Weights &weights) {
+PreparedWorld VirtualFlight::world(const Weights& weights) {
   (void)request();
   if (!(weights.attractive >= 0.0 && weights.repulsive >= 0.0)) {
     throw std::invalid_argument("weights: λ must be 0 or more");
@@ -196,7 +197,7 @@ PreparedWorld VirtualFlight::world(const Weights &weights) {
   return planner_->world(weights);
 }
 
-void VirtualFlight::answer(const Plan &plan) {
+void VirtualFlight::answer(const Plan& plan) {
   if (plan.request_id != request().id) {
     throw std::invalid_argument("the answer is to request " + std::to_string(plan.request_id) + ", and request " +
                                 std::to_string(request().id) + " is open");

@@ -6,10 +6,18 @@
 namespace tern::ros {
 namespace {
 
+/// Keeps the newest arrivals, whatever their names: after a jump back in a log, older names arrive again.
 template <class Key, class Value>
-void keep(std::map<Key, Value>& kept, const Key& key, Value value, std::size_t most) {
-  kept.insert_or_assign(key, std::move(value));
-  if (kept.size() > most) kept.erase(kept.begin());
+void keep(std::deque<std::pair<Key, Value>>& kept, const Key& key, Value value, std::size_t most) {
+  kept.emplace_back(key, std::move(value));
+  if (kept.size() > most) kept.pop_front();
+}
+
+/// Returns the newest arrival of this name, or null.
+template <class Key, class Value>
+const Value* find(const std::deque<std::pair<Key, Value>>& kept, const Key& key) {
+  const auto found = std::find_if(kept.rbegin(), kept.rend(), [&](const auto& entry) { return entry.first == key; });
+  return found == kept.rend() ? nullptr : &found->second;
 }
 
 const FeedTopic& topic_named(std::string_view name) {
@@ -85,14 +93,13 @@ void Feed::receive(const Plan& plan) {
   if (is_wanted(topics::kTrajectory)) write(topics::kTrajectory, trajectory_of(plan.trajectory, frames_));
   const SceneDrawing drawing(frames_, plan.header.utime);
   if (is_wanted(topics::kPlanLine)) write(topics::kPlanLine, drawing.line(plan.trajectory, "plan", kPlanColor));
-  const auto request = requests_.find(plan.inputs.request);
-  if (request != requests_.end() && is_wanted(topics::kPlanes)) {
-    write(topics::kPlanes, drawing.planes(plan, request->second));
-  }
-  const auto tracks = tracks_.find({plan.inputs.predictions.sender_epoch_us, plan.inputs.prediction_set});
+  const UTime* t_s = find(requests_, plan.inputs.request);
+  if (t_s != nullptr && is_wanted(topics::kPlanes)) write(topics::kPlanes, drawing.planes(plan, *t_s));
+  const TrackSet* tracks =
+      find(tracks_, std::pair(plan.inputs.predictions.sender_epoch_us, plan.inputs.prediction_set));
   const bool has_none = plan.inputs.predictions == MessageName{};
-  if ((tracks != tracks_.end() || has_none) && is_wanted(topics::kHulls)) {
-    write(topics::kHulls, drawing.hulls(plan, has_none ? TrackSet() : tracks->second));
+  if ((tracks != nullptr || has_none) && is_wanted(topics::kHulls)) {
+    write(topics::kHulls, drawing.hulls(plan, has_none ? TrackSet() : *tracks));
   }
 }
 

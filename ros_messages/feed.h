@@ -1,9 +1,9 @@
-// Turns the messages of a flight into ROS messages, topic by topic: for files, for Foxglove, for ROS 2.
+// Turns the messages of a flight into ROS messages, topic by topic: for files and for Foxglove.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -69,8 +69,8 @@ class Feed {
   Wanted wanted_;
   Frames frames_;
   Vec3 position_sigma_ = Vec3::Zero();
-  std::map<MessageName, UTime> requests_;  ///< t_s
-  std::map<std::pair<std::int64_t, std::int64_t>, TrackSet> tracks_;
+  std::deque<std::pair<MessageName, UTime>> requests_;                             ///< t_s by name, the newest last
+  std::deque<std::pair<std::pair<std::int64_t, std::int64_t>, TrackSet>> tracks_;  ///< by sender epoch and set
 };
 
 }  // namespace tern::ros

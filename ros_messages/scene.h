@@ -1,4 +1,4 @@
-// Draws Tern's values as scenes of Foxglove (foxglove_msgs/msg/SceneUpdate), and scenes as markers of RViz.
+// Draws Tern's values as scenes of Foxglove (foxglove_msgs/msg/SceneUpdate).
 #pragma once
 
 #include <cstdint>

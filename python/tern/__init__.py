@@ -9,8 +9,8 @@
     position, velocity, acceleration, jerk = answer.trajectory.sample(1_250_000)
 
 Arrays are float64 with a row per point, in the frame W (east, north, up). Units are SI and radians, or stand in the
-name. Times are integer microseconds. Every object is a value: it never changes. Bad arguments raise ValueError that
-names the argument, its value and the limit.
+name. Times are integer microseconds. Objects are values that never change, except Flight and Env, which belong to one
+thread each. Bad arguments raise ValueError that names the argument, its value and the limit.
 """
 from ._tern import (Answer, Config, Flight, Problem, Request, Track, Trajectory, Vehicle, VoxelMap, World, build_id,
                     plan, problems)

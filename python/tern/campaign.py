@@ -46,6 +46,8 @@ def campaign(scenario: str | os.PathLike[str], seeds: Sequence[int] = range(1, 1
 
     Empty cells are NaN in columns of numbers and "" in columns of text. docs/reference/campaign.md has the columns.
     """
+    if len(seeds) == 0:
+        raise ValueError("seeds: none are given; 1 or more are flown")
     first, last = min(seeds), max(seeds)
     if sorted(seeds) != list(range(first, last + 1)):
         raise ValueError(f"seeds: {list(seeds)} are not consecutive")

@@ -242,6 +242,7 @@ class Campaign(unittest.TestCase):
     def test_bad_arguments_fly_nothing(self):
         for words, call in [
             ("are not consecutive", lambda: tern.campaign("corridor_demo", [1, 3])),
+            ("seeds: none are given", lambda: tern.campaign("corridor_demo", [])),
             ("charge: time", lambda: tern.campaign("corridor_demo", [1], charge="time")),
             ("seeds are given by", lambda: tern.campaign("corridor_demo", [1], settings={"seed": 3})),
             ("uav.goal", lambda: tern.campaign("corridor_demo", [1], settings={"uav.goal": "far"})),

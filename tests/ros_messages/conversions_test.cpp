@@ -95,5 +95,25 @@ TEST(Feed, WritesOnlyWhatIsWanted) {
   EXPECT_EQ(written, std::vector<std::string>{"/tf"});
 }
 
+TEST(Feed, DrawsThePlanesOfAnOldRequestThatArrivesAgain) {
+  std::vector<std::string> written;
+  Feed feed([&](const FeedTopic& topic, const std::string&) { written.push_back(topic.name); },
+            [](std::string_view topic) { return topic == topics::kPlanes; });
+  HorizonRequest request;
+  for (std::int64_t sequence = 1; sequence <= 100; ++sequence) {
+    request.header.name = {1, sequence};
+    feed.receive(request);
+  }
+  Plan plan;
+  plan.outcome = PlanOutcome::Optimized;
+  plan.inputs.request = {1, 3};
+  feed.receive(plan);
+  EXPECT_TRUE(written.empty()) << "only the newest requests are kept";
+  request.header.name = {1, 3};  // a log was rewound
+  feed.receive(request);
+  feed.receive(plan);
+  EXPECT_EQ(written, std::vector<std::string>{"/tern/planes"});
+}
+
 }  // namespace
 }  // namespace tern::ros

@@ -355,7 +355,7 @@ await run({
     const log = await knownLog();
     const played = [['--set', 'seed=3'], ['--config', 'x.yaml'], ['--lcm-url', 'udpm://'], ['--clock-offset-us', '5'], ['--allow-goals'],
       ['--key-file', 'key']];
-    const written = [['--listen', '127.0.0.1'], ['--url-file', 'x'], ['--allow-host', 'x'], ['--pace', '0.5']]
+    const written = [['--listen', '127.0.0.1'], ['--url-file', 'x'], ['--allow-host', 'x'], ['--pace', '0.5'], ['--foxglove', '8766']]
       .map((options) => [...options, '--export', join(work, 'refused.html')]);
     for (const options of [...played, ...written]) {
       for (const where of [[log], ['--log', log]]) {

@@ -234,6 +234,15 @@ TEST_F(PageGoalTest, IsRepeatedUntilANewerOneIsHeard) {
   EXPECT_FALSE(is_sent_at(4.0));
 }
 
+TEST_F(PageGoalTest, IsNumberedAfterThoseThatWereSentAndThoseThatWereHeard) {
+  hear_vehicle(5);
+  EXPECT_EQ(own_.next_id(scene_), 1);
+  own_.set(goal(1), scene_, kKnownLogStart);
+  EXPECT_EQ(own_.next_id(scene_), 2) << "the bus has not told the first one yet";
+  scene_.receive(goal(7));
+  EXPECT_EQ(own_.next_id(scene_), 8);
+}
+
 TEST_F(PageGoalTest, IsNotSentToTheVehicleOfAnotherFlight) {
   hear_vehicle(5);
   own_.set(goal(2), scene_, kKnownLogStart);
@@ -294,6 +303,7 @@ TEST(ListeningSocket, TakesTheAddressThatItIsGiven) {
   const std::string url = *listening_url(*any);
   EXPECT_TRUE(url.starts_with("http://127.0.0.1:")) << url;
   EXPECT_EQ(host_of_url(url), "127.0.0.1");
+  EXPECT_FALSE(is_ipv6_socket(*any));
   const std::string taken = url.substr(7, url.size() - 8);
   EXPECT_FALSE(open_listening_socket(taken, false));
   for (const char* where : {"", "nowhere", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:x", "::1", "256.0.0.1:80"}) {

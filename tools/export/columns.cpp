@@ -5,6 +5,9 @@
 namespace tern::exporting {
 namespace {
 
+using ros::message_types;
+using ros::MessageField;
+using ros::MessageType;
 using Form = MessageField::Form;
 using Names = std::vector<std::string>;
 

@@ -5,12 +5,16 @@
 
 #include <string_view>
 
+#include "ros_messages/message_types.h"
 #include "tools/export/columns.h"
 #include "tools/export/message_json.h"
 
 namespace tern::exporting {
 namespace {
 
+using ros::message_types;
+using ros::MessageField;
+using ros::MessageType;
 using Form = MessageField::Form;
 
 std::string head_of(const char* first_columns, const std::vector<std::string>& columns) {

@@ -1,5 +1,7 @@
 #include "viewer/bridge/page_goal.h"
 
+#include <algorithm>
+
 namespace tern {
 namespace {
 
@@ -12,6 +14,10 @@ void PageGoal::set(const Goal& goal, const Scene& scene, UTime now) {
   newest_id_ = goal.id;
   vehicle_us_ = scene.vehicle_us();
   next_ = now;
+}
+
+std::int64_t PageGoal::next_id(const Scene& scene) const {
+  return std::max(newest_id_, scene.goal() ? scene.goal()->id : 0) + 1;
 }
 
 std::optional<Goal> PageGoal::due(const Scene& scene, UTime now) {

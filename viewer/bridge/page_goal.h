@@ -1,4 +1,4 @@
-// A goal sent by a page.
+// A goal sent by a page or by a client of Foxglove.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,9 @@ class PageGoal {
   void set(const Goal& goal, const Scene& scene, UTime now);
   /// Returns the goal if it is time to publish it.
   std::optional<Goal> due(const Scene& scene, UTime now);
+  /// Returns the id of a new goal: larger than those of the goals that were set and received. Goals in quick succession
+  /// get different ids, although the bus has not told the first one yet.
+  [[nodiscard]] std::int64_t next_id(const Scene& scene) const;
   /// Returns the id of the newest goal that was set; 0: none.
   [[nodiscard]] std::int64_t newest_id() const { return newest_id_; }
 

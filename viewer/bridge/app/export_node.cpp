@@ -62,7 +62,7 @@ void keep_logs_apart(CommandLine& app, const ViewerOptions& options) {
     for (const char* name : {"--key-file", "--key-fd"}) refuse(name, "a log is played (tern-key sift verifies one)");
     app.option("--lcm-url").set("memq://");
     if (options.export_to.empty() && options.video_to.empty()) return;
-    for (const char* name : {"--listen", "--allow-host", "--url-file", "--looked-fd"})
+    for (const char* name : {"--listen", "--allow-host", "--url-file", "--looked-fd", "--foxglove"})
       refuse(name, "a file is written");
     if (std::getenv("TERN_PACE") == nullptr) refuse("--pace", "a file is written");
   });

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "runtime/config.h"
+#include "runtime/log.h"
 #include "viewer/bridge/app/listening_socket.h"
 
 namespace tern {
@@ -32,6 +33,12 @@ FoxgloveLink::FoxgloveLink(const Options& options, const std::string& session)
   names.push_back(host_of_url(page_url));
   server_ =
       std::make_unique<FoxgloveServer>(fd, Access(std::move(names)), options.origins, std::move(channels), session);
+}
+
+FoxgloveLink::~FoxgloveLink() {
+  const FoxgloveCounters counters = server_->counters();
+  log::info("Foxglove: {} messages sent, {} dropped for slow clients, {} connections and messages refused",
+            counters.sent, counters.dropped, counters.refused);
 }
 
 }  // namespace tern

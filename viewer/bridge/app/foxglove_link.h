@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,10 @@ class FoxgloveLink {
   /// @param session  names this run of the viewer
   /// @throws ConfigError if listening fails
   FoxgloveLink(const Options& options, const std::string& session);
+  /// Logs the server's counters.
+  ~FoxgloveLink();
+  FoxgloveLink(const FoxgloveLink&) = delete;
+  FoxgloveLink& operator=(const FoxgloveLink&) = delete;
 
   /// The feed takes complete messages. Call set_time() first.
   ros::Feed& feed() { return feed_; }

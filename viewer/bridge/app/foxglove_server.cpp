@@ -33,6 +33,8 @@ using Payload = std::shared_ptr<const std::string>;
 
 constexpr auto kRequestTimeout = std::chrono::seconds(10);
 constexpr unsigned kMaxHeaderBytes = 8192;
+/// Refused connections are logged until so many refusals are counted: a foreign page cannot fill the log.
+constexpr std::int64_t kMaxRefusalsLogged = 20;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -69,8 +71,10 @@ struct Clients {
     const std::lock_guard lock(mutex);
     change(counters);
   }
-  void count_refused() {
-    count([](FoxgloveCounters& c) { ++c.refused; });
+  /// Returns the number of refusals so far.
+  std::int64_t count_refused() {
+    const std::lock_guard lock(mutex);
+    return ++counters.refused;
   }
 };
 
@@ -133,7 +137,7 @@ class Client : public std::enable_shared_from_this<Client> {
   }
 
   void refuse(http::status status, const std::string& why) {
-    clients_.count_refused();
+    if (clients_.count_refused() <= kMaxRefusalsLogged) log::warn("a Foxglove client was refused: {}", why);
     auto response = std::make_shared<http::response<http::string_body>>(status, 11);
     response->set(http::field::content_type, "text/plain; charset=utf-8");
     response->body() = why + "\n";
@@ -222,12 +226,14 @@ class Client : public std::enable_shared_from_this<Client> {
     if (!message) return refuse_text(message.error().message);
     const auto channel = advertised_.find(message->channel);
     if (channel == advertised_.end()) return refuse_text("the channel is not advertised");
+    if (!take(channel->second, message->payload)) refuse_text("too many messages wait");
+  }
+
+  bool take(const foxglove::ClientAdvertise::Entry& channel, std::span<const std::uint8_t> payload) {
     const std::lock_guard lock(clients_.mutex);
-    if (clients_.inbox.size() >= kMaxFoxgloveInbox) {
-      ++clients_.counters.refused;
-    } else {
-      clients_.inbox.push_back({id_, channel->second, {message->payload.begin(), message->payload.end()}});
-    }
+    if (clients_.inbox.size() >= kMaxFoxgloveInbox) return false;
+    clients_.inbox.push_back({id_, channel, {payload.begin(), payload.end()}});
+    return true;
   }
 
   void queue(std::string head, const Payload& body) {
@@ -304,9 +310,7 @@ FoxgloveServer::FoxgloveServer(int listening_fd, Access access, std::vector<std:
   clients.newest.resize(channels.size());
   clients.subscribers = std::vector<std::atomic<int>>(channels.size());
   clients.channels = std::move(channels);
-  const auto url = listening_url(listening_fd);
-  const bool v6 = url && url->find('[') != std::string::npos;
-  impl_->acceptor.assign(v6 ? tcp::v6() : tcp::v4(), listening_fd);
+  impl_->acceptor.assign(is_ipv6_socket(listening_fd) ? tcp::v6() : tcp::v4(), listening_fd);
   impl_->accept();
   impl_->thread = std::thread([impl = impl_.get()] { impl->context.run(); });
 }

@@ -28,7 +28,7 @@ struct FoxglovePublished {
 struct FoxgloveCounters {
   std::int64_t sent = 0;     ///< messages
   std::int64_t dropped = 0;  ///< messages that a slow client missed
-  std::int64_t refused = 0;  ///< connections and texts
+  std::int64_t refused = 0;  ///< connections, texts and published messages
 };
 
 /// Runs a thread of its own. Every function may be called from any thread; none waits for a client.
@@ -36,7 +36,7 @@ class FoxgloveServer {
  public:
   /// @param listening_fd  a listening TCP socket; the server closes it
   /// @param origins  pages of these origins may connect; programs send no Origin, and may connect too
-  /// @throws std::system_error if the socket cannot be used
+  /// @throws boost::system::system_error if the socket cannot be used
   FoxgloveServer(int listening_fd, Access access, std::vector<std::string> origins,
                  std::vector<foxglove::Channel> channels, std::string session);
   ~FoxgloveServer();

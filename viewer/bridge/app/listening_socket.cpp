@@ -101,6 +101,12 @@ Result<std::string> listening_url(int fd) {
   return fail(fmt::format("descriptor {} is not a TCP socket", fd));
 }
 
+bool is_ipv6_socket(int fd) {
+  Address address;
+  address.length = sizeof address.storage;
+  return getsockname(fd, address.raw(), &address.length) == 0 && address.storage.ss_family == AF_INET6;
+}
+
 std::string host_of_url(const std::string& url) {
   const std::size_t begin = url.find("//") + 2;
   return url.substr(begin, url.rfind(':') - begin);

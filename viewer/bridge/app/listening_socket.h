@@ -22,6 +22,9 @@ Result<int> open_listening_socket(const std::string& where, bool inheritable);
 /// Returns "http://127.0.0.1:8765/", or an Error if fd is not a listening TCP socket.
 Result<std::string> listening_url(int fd);
 
+/// Returns true if fd is bound to an IPv6 address. Boost.Asio asks when it takes over a socket.
+bool is_ipv6_socket(int fd);
+
 /// Returns the part of a URL between "http://" and the port: "127.0.0.1".
 std::string host_of_url(const std::string& url);
 

@@ -183,12 +183,12 @@ std::optional<std::string> ViewerNode::send_goal(const GoalCommand& command, UTi
     return "the body would leave the flight box";
   }
   Goal goal;
-  goal.id = (scene_.goal() ? scene_.goal()->id : 0) + 1;
+  goal.id = page_goal_.next_id(scene_);
   goal.mode = command.mode;
   goal.position = command.position;
   page_goal_.set(goal, scene_, now);
   repeat_goal(now);
-  log::info("a page sent goal {}: {:.2f}, {:.2f}, {:.2f}", goal.id, goal.position.x(), goal.position.y(),
+  log::info("goal {} is sent: {:.2f}, {:.2f}, {:.2f}", goal.id, goal.position.x(), goal.position.y(),
             goal.position.z());
   return std::nullopt;
 }

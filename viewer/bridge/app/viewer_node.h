@@ -26,7 +26,7 @@ struct ViewerOptions {
   std::string page;                  ///< folder of the built page; empty: default_page_folder()
   std::vector<std::string>
       allow_hosts;               ///< host names, in addition to loopback, by which browsers may address the bridge
-  bool allow_goals = false;      ///< pages may send goals
+  bool allow_goals = false;      ///< pages and Foxglove's clients may send goals
   std::string log;               ///< log to play; empty: live
   std::string export_to;         ///< file for --export; empty: none
   std::string video_to;          ///< file for --video; empty: none

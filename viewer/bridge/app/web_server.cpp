@@ -238,9 +238,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 struct WebServer::Impl {
   Impl(int fd, PageFiles files, Access access, const Board& board)
       : shared{std::move(files), std::move(access), board, {}, 0, 0, {}, {}, {}, {}}, acceptor(context) {
-    const auto url = listening_url(fd);
-    const bool v6 = url && url->find('[') != std::string::npos;
-    acceptor.assign(v6 ? tcp::v6() : tcp::v4(), fd);
+    acceptor.assign(is_ipv6_socket(fd) ? tcp::v6() : tcp::v4(), fd);
     accept();
   }
 

@@ -42,7 +42,7 @@ class WebServer {
  public:
   /// @param listening_fd  a listening TCP socket; the server closes it
   /// @param board  outlives the server
-  /// @throws std::system_error if the socket cannot be used
+  /// @throws boost::system::system_error if the socket cannot be used
   WebServer(int listening_fd, PageFiles files, Access access, const Board& board);
   ~WebServer();
   WebServer(const WebServer&) = delete;
