@@ -14,8 +14,9 @@ Scan scan_of(const DepthImage& image) {
   for (std::size_t i = 0; i < image.depths.size(); ++i) {
     if (image.depths[i] <= 0) continue;
     const double z = image.depths[i] * image.unit_m;
+    const std::size_t row = idx(image.first_row) + i / idx(image.width);
     const auto u = static_cast<double>(i % idx(image.width));
-    const auto v = static_cast<double>(idx(image.first_row) + i / idx(image.width));
+    const auto v = static_cast<double>(row);
     const Vec3 p_C(z * (u - image.cx) / image.fx, z * (v - image.cy) / image.fy, z);
     const Vec3 p_W = image.sensor_position + R_WC * p_C;
     if (p_W.allFinite()) scan.points.push_back({p_W, 0});
