@@ -1,0 +1,31 @@
+// Depth pictures of real sensors: from DEPTH_IMAGE and POINT_CLOUD.
+#pragma once
+
+#include <span>
+
+#include "core/base/result.h"
+#include "core/world/scan.h"
+#include "perception/depth_picture.h"
+
+namespace tern {
+
+/// Larger images are reduced to at most this many columns: enough for things of 0.2 m at 10 m.
+inline constexpr int kMostColumns = 160;
+
+/// Returns the picture of a depth image of `height` rows. Its rows may have come in several messages of one time;
+/// missing rows count as not measured. With more than kMostColumns columns, blocks of equal size become one pixel: the
+/// measured one that is nearest to the middle of the block.
+/// @param parts   the messages of one image
+/// @param noise   of the depths, per pixel of the image
+/// @param least_range_m  nearer depths are not measured, for instance those of the vehicle's own body, ≥ 0
+/// @return an Error that names the trouble: no message, messages of different images, rows beyond the height, or no
+///   measured pixel
+Result<DepthPicture> picture_of(std::span<const DepthImage> parts, int height, const DepthNoise& noise,
+                                double least_range_m);
+
+/// Returns the picture of a point cloud: 360 × 180 steps of one degree, each with its nearest point. Steps without a
+/// point count as not measured: a cloud does not contain the rays without a return.
+/// @return an Error as above
+Result<DepthPicture> picture_of(std::span<const CloudScan> parts, const DepthNoise& noise, double least_range_m);
+
+}  // namespace tern
