@@ -12,9 +12,12 @@
 #include "core/world/goal.h"
 #include "core/world/health.h"
 #include "core/world/horizon.h"
+#include "core/world/inertial.h"
 #include "core/world/observation.h"
+#include "core/world/plan_heading.h"
 #include "core/world/scan.h"
 #include "core/world/search_view.h"
+#include "core/world/sighting.h"
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
 #include "core/world/vehicle.h"
@@ -75,6 +78,9 @@ inline constexpr Channel<VehicleStatus> kVehicleStatus{
 /// The detections of one sensor at one time; several sensors may send.
 inline constexpr Channel<ObservationSet> kObstacleObservations{
     "OBSTACLE_OBSERVATIONS", Scope::Vehicle, "30 Hz", kStream, Role::Vehicle, kAnyone};
+/// One frame of a sensor that knows what hides what: what it saw, and what it looked at; several sensors may send.
+inline constexpr Channel<SightingSet> kObstacleSightings{
+    "OBSTACLE_SIGHTINGS", Scope::Vehicle, "10–30 Hz per sensor", kStream, Role::Vehicle, kAnyone};
 /// Points that a sensor measured, for a live map; several sensors may send.
 inline constexpr Channel<CloudScan> kPointCloud{
     "POINT_CLOUD", Scope::Vehicle, "at most 20 Hz", kStream, Role::Vehicle, kAnyone};
@@ -102,6 +108,10 @@ inline constexpr Channel<HorizonRequest> kHorizonRequest{
 /// The answer: trajectory, certificate, confidence, hold, cost, and the names of its inputs.
 inline constexpr Channel<Plan> kPlan{
     "PLAN", Scope::Vehicle, "one per request", kStream, Role::Planner, kShortSilence};
+/// The yaw along the trajectory of a plan.
+inline constexpr Channel<PlanHeading> kPlanHeading{
+    "PLAN_HEADING", Scope::Vehicle, "one per plan, only with `planner.heading: planned`", kStream, Role::Planner,
+    kShortSilence};
 /// Time by stage, work and memory of one answer.
 inline constexpr Channel<PlanTiming> kPlanTiming{
     "PLAN_TIMING", Scope::Vehicle, "one per request", kStream, Role::Planner, kShortSilence};
@@ -121,15 +131,30 @@ inline constexpr Channel<ObstacleTruth> kObstacleTruth{
 /// The state of the vehicle as it really is, if it is known.
 inline constexpr Channel<UavState> kVehicleTruth{
     "VEHICLE_TRUTH", Scope::Vehicle, "100 Hz", kStream, Role::Vehicle, kSilence};
+/// Angular velocity and specific force of the body; several units may send.
+inline constexpr Channel<ImuBatch> kImu{
+    "IMU", Scope::Vehicle, "50–400 Hz", kStream, Role::Vehicle, kAnyone};
+/// The features that a stereo pair tracks; several pairs may send.
+inline constexpr Channel<FeatureFrame> kFeatureTracks{
+    "FEATURE_TRACKS", Scope::Vehicle, "10–30 Hz", kStream, Role::Vehicle, kAnyone};
+/// A position from outside; several sensors may send.
+inline constexpr Channel<PositionFix> kPositionFix{
+    "POSITION_FIX", Scope::Vehicle, "at most 20 Hz", kStream, Role::Vehicle, kAnyone};
+/// Pose, velocity, biases and covariances as a visual-inertial estimator has them.
+inline constexpr Channel<Odometry> kOdometry{
+    "ODOMETRY", Scope::Vehicle, "one per frame of features", kStream, Role::Vehicle, kShortSilence};
 /// The referee's verdict and its measures.
 inline constexpr Channel<FlightResult> kFlightResult{
     "FLIGHT_RESULT", Scope::Vehicle, "at the end", kLatched, Role::Vehicle, kSilence};
 // clang-format on
 
-inline constexpr std::tuple kAll{kUavState,   kSetpoint,        kVehicleStatus, kObstacleObservations, kPointCloud,
-                                 kDepthImage, kDeclaredMotions, kPredictions,   kTrackBounds,          kSemanticMap,
-                                 kGoal,       kHorizonRequest,  kPlan,          kPlanTiming,           kSearchView,
-                                 kHeartbeat,  kConfiguration,   kObstacleTruth, kVehicleTruth,         kFlightResult};
+inline constexpr std::tuple kAll{kUavState,          kSetpoint,    kVehicleStatus, kObstacleObservations,
+                                 kObstacleSightings, kPointCloud,  kDepthImage,    kDeclaredMotions,
+                                 kPredictions,       kTrackBounds, kSemanticMap,   kGoal,
+                                 kHorizonRequest,    kPlan,        kPlanHeading,   kPlanTiming,
+                                 kSearchView,        kHeartbeat,   kConfiguration, kObstacleTruth,
+                                 kVehicleTruth,      kImu,         kFeatureTracks, kPositionFix,
+                                 kOdometry,          kFlightResult};
 
 }  // namespace channels
 

@@ -43,6 +43,10 @@ inline constexpr const char* kLcmType<VehicleStatus> = "vehicle_status_t";
 /// Inconsistent: two detections have the same track id.
 template <>
 inline constexpr const char* kLcmType<ObservationSet> = "observation_set_t";
+/// Inconsistent: the quaternion has not the length 1; the depths are not rows times columns. Also: the field of view of
+/// a camera reaches to a right angle; a lower bound is above its upper one.
+template <>
+inline constexpr const char* kLcmType<SightingSet> = "sighting_set_t";
 template <>
 inline constexpr const char* kLcmType<CloudScan> = "point_cloud_t";
 /// Inconsistent: the quaternion has not the length 1; the number of depths is no multiple of the width.
@@ -69,6 +73,8 @@ inline constexpr const char* kLcmType<HorizonRequest> = "horizon_request_t";
 template <>
 inline constexpr const char* kLcmType<Plan> = "plan_t";
 template <>
+inline constexpr const char* kLcmType<PlanHeading> = "plan_heading_t";
+template <>
 inline constexpr const char* kLcmType<PlanTiming> = "plan_timing_t";
 /// Inconsistent: a node precedes its parent.
 template <>
@@ -82,6 +88,17 @@ inline constexpr const char* kLcmType<ConfigurationReport> = "configuration_t";
 /// Inconsistent: two obstacles have the same id.
 template <>
 inline constexpr const char* kLcmType<ObstacleTruth> = "obstacle_truth_t";
+/// Time: the samples are not in ascending order.
+template <>
+inline constexpr const char* kLcmType<ImuBatch> = "imu_t";
+/// Inconsistent: the quaternion has not the length 1; two features have the same id.
+template <>
+inline constexpr const char* kLcmType<FeatureFrame> = "feature_tracks_t";
+template <>
+inline constexpr const char* kLcmType<PositionFix> = "position_fix_t";
+/// Inconsistent: the quaternion has not the length 1.
+template <>
+inline constexpr const char* kLcmType<Odometry> = "odometry_t";
 /// Inconsistent: the name lengths do not sum to the names' bytes. The eight measures may be NaN.
 template <>
 inline constexpr const char* kLcmType<FlightResult> = "flight_result_t";

@@ -1,6 +1,5 @@
-#include <cmath>
-
 #include "messages/form.h"
+#include "messages/quaternion_fields.h"
 #include "tern_msgs/depth_image_t.hpp"
 
 namespace tern {
@@ -12,8 +11,7 @@ struct wire::Form<DepthImage> {
   static constexpr Layout kLayout{
       Array{&Message::depth_count, &Message::depths, 0, kMaxDepthsPerMessage},
   };
-  static constexpr double kLengthTolerance = 1e-3;  // of the quaternion
-  static constexpr double kMaxUnit = 1e3;           // m
+  static constexpr double kMaxUnit = 1e3;  // m
   static constexpr std::int32_t kMaxRow = 1'000'000;
 
   static void fields(auto& io, auto& m, auto& image) {
@@ -22,11 +20,7 @@ struct wire::Form<DepthImage> {
     io.integer("sensor_id", m.sensor_id, image.sensor_id, 0, std::numeric_limits<std::int32_t>::max());
     io.number("range", m.range, image.range_m, 0.0, kMaxCoordinate);
     io.position("sensor_position", m.sensor_position, image.sensor_position);
-    constexpr double kMaxPart = 1.0 + kLengthTolerance;
-    io.number("q_w", m.q_w, image.q_WC[0], -kMaxPart, kMaxPart);
-    io.number("q_x", m.q_x, image.q_WC[1], -kMaxPart, kMaxPart);
-    io.number("q_y", m.q_y, image.q_WC[2], -kMaxPart, kMaxPart);
-    io.number("q_z", m.q_z, image.q_WC[3], -kMaxPart, kMaxPart);
+    quaternion_fields(io, m, image.q_WC);
     io.number("fx", m.fx, image.fx, kAboveZero, kMaxCoordinate);
     io.number("fy", m.fy, image.fy, kAboveZero, kMaxCoordinate);
     io.number("cx", m.cx, image.cx, -kMaxCoordinate, kMaxCoordinate);
@@ -38,7 +32,7 @@ struct wire::Form<DepthImage> {
   }
 
   static void read_rest(FieldReader& read, const Message&, DepthImage& image) {
-    read.consistent(std::abs(image.q_WC.norm() - 1.0) <= kLengthTolerance, "the quaternion has not the length 1");
+    read.consistent(is_unit(image.q_WC), "the quaternion has not the length 1");
     read.consistent(std::ssize(image.depths) % image.width == 0, "the last row is not complete");
   }
 };

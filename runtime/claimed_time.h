@@ -7,8 +7,10 @@
 #include "core/world/goal.h"
 #include "core/world/health.h"
 #include "core/world/horizon.h"
+#include "core/world/inertial.h"
 #include "core/world/observation.h"
 #include "core/world/scan.h"
+#include "core/world/sighting.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
@@ -29,6 +31,11 @@ inline UTime claimed_time(const TrackSet& m) { return std::max(claimed_time(m.he
 inline UTime claimed_time(const ObservationSet& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const CloudScan& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const DepthImage& m) { return std::max(claimed_time(m.header), m.at); }
+inline UTime claimed_time(const SightingSet& m) { return std::max(claimed_time(m.header), m.at); }
+inline UTime claimed_time(const ImuBatch& m) { return std::max(claimed_time(m.header), m.samples.back().at); }
+inline UTime claimed_time(const FeatureFrame& m) { return std::max(claimed_time(m.header), m.at); }
+inline UTime claimed_time(const PositionFix& m) { return std::max(claimed_time(m.header), m.at); }
+inline UTime claimed_time(const Odometry& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const ObstacleTruth& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const UavState& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const VehicleStatus& m) { return std::max(claimed_time(m.header), m.at); }

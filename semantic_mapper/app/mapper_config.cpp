@@ -64,7 +64,7 @@ CloudFormat read_format(ConfigSection& section, const std::string& file) {
                  [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
   const auto known = std::find_if(kEndings.begin(), kEndings.end(), [&](const auto& e) { return e.first == ending; });
   const bool is_known = known != kEndings.end();
-  const std::string by_ending = kFormats[is_known ? idx(known->second) : 0];
+  const std::string& by_ending = kFormats[is_known ? idx(known->second) : 0];
   const bool is_given = section.has("format");
   const std::string format =
       section.choice("format", by_ending, kFormats, "file format; by default that of the file name's ending");

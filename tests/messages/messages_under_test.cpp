@@ -87,6 +87,30 @@ struct Words {
   void add(const ObservationSet& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.detections);
   }
+  void add(const Sighting& s) { (*this)(s.lower, s.upper, s.lower_sigma, s.upper_sigma, s.bounds, s.points); }
+  void add(const SensorView& v) {
+    (*this)(v.kind, v.sensor_position, v.q_WC, v.left, v.right, v.up, v.down, v.near_m, v.range_m, v.depth_sigma,
+            v.depth_sigma_per_square_m, v.unit_m, v.rows, v.columns, v.depths);
+  }
+  void add(const SightingSet& s) { (*this)(s.header, s.at, s.sensor_id, s.left_out, s.view, s.sightings); }
+  void add(const ImuSample& s) { (*this)(s.at, s.angular_velocity, s.specific_force); }
+  void add(const ImuBatch& b) { (*this)(b.header, b.sensor_id, b.saturation_rate, b.saturation_force, b.samples); }
+  void add(const StereoFeature& f) { (*this)(f.id, f.left, f.right, f.has_right); }
+  void add(const FeatureFrame& f) {
+    (*this)(f.header, f.at, f.sensor_id, f.p_BC, f.q_BC, f.baseline_m, f.sigma, f.features);
+  }
+  void add(const PositionFix& f) {
+    (*this)(f.header, f.at, f.sensor_id, f.position, f.variance, f.has_yaw, f.yaw, f.yaw_variance);
+  }
+  void add(const Odometry& o) {
+    (*this)(o.header, o.at, o.state, o.epoch, o.p_OB, o.q_OB, o.v_OB, o.angular_velocity, o.p_WO, o.yaw_WO,
+            o.gyroscope_bias, o.accelerometer_bias, o.pose_covariance, o.velocity_covariance, o.drift_covariance,
+            o.tracks, o.rejected);
+  }
+  void add(const PlanHeading& h) {
+    (*this)(h.header, h.request_id, h.request, h.start, h.interval, h.control_points, h.rate_max, h.acceleration_max,
+            h.path_term, h.track_term, h.unseen_term, h.texture_term);
+  }
   void add(const CloudPoint& p) { (*this)(p.position, p.class_number); }
   void add(const CloudScan& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.has_classes, s.points);
@@ -160,6 +184,12 @@ template std::vector<std::uint64_t> words_of(const TrackBounds&);
 template std::vector<std::uint64_t> words_of(const Heartbeat&);
 template std::vector<std::uint64_t> words_of(const ConfigurationReport&);
 template std::vector<std::uint64_t> words_of(const ObstacleTruth&);
+template std::vector<std::uint64_t> words_of(const SightingSet&);
+template std::vector<std::uint64_t> words_of(const PlanHeading&);
+template std::vector<std::uint64_t> words_of(const ImuBatch&);
+template std::vector<std::uint64_t> words_of(const FeatureFrame&);
+template std::vector<std::uint64_t> words_of(const PositionFix&);
+template std::vector<std::uint64_t> words_of(const Odometry&);
 template std::vector<std::uint64_t> words_of(const FlightResult&);
 
 template <>
@@ -235,6 +265,30 @@ std::vector<std::int32_t> array_sizes(const ObstacleTruth& truth) {
 template <>
 std::vector<std::int32_t> array_sizes(const VehicleStatus& status) {
   return {size_of(status.mode), size_of(status.why_not)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const SightingSet& value) {
+  return {size_of(value.sightings), size_of(value.view.depths)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const PlanHeading& value) {
+  return {size_of(value.control_points)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const ImuBatch& value) {
+  return {size_of(value.samples)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const FeatureFrame& value) {
+  return {size_of(value.features)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const PositionFix&) {
+  return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const Odometry&) {
+  return {};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const FlightResult& result) {
