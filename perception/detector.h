@@ -1,54 +1,41 @@
-// From a depth picture to boxes: clusters, corner fits, and how each of six bounds was seen.
+// From a depth picture to sightings: clusters, corner fits, and the visibility of each of six bounds.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/base/types.h"
+#include "core/world/sighting.h"
 #include "perception/depth_picture.h"
 
 namespace tern {
 
-/// The surroundings of a bound of a box.
-enum class BoundSeen : std::uint8_t {
-  Whole,     ///< the box ends there: what lies beyond is farther, or empty
-  Occluded,  ///< something nearer hides what lies beyond, or the box hides it itself
-  Cut,       ///< the picture ends there
-  Touching,  ///< something at the same depth goes on: the ground, a wall, another box
-};
-
-/// The visible part of one object as an axis-aligned box. A bound that is Whole is measured with its standard
-/// deviation. At any other bound the object is known to reach at least this far.
-struct SeenBox {
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();              ///< W, m
-  Vec3 sigma_lower = Vec3::Zero(), sigma_upper = Vec3::Zero();  ///< of the bounds, m, > 0
-  std::array<BoundSeen, 3> seen_lower{}, seen_upper{};
-  int pixels = 0;  ///< ≥ kLeastPixels
-};
-
 /// Fewer pixels are no object.
 inline constexpr int kLeastPixels = 6;
+/// A cluster is peeled at most this often.
+inline constexpr int kMostPeelings = 4;
+/// Points nearer than this to known surroundings count as theirs, m: the height of what lies on a floor.
+inline constexpr double kSurroundingsMargin = 0.1;
 
 /// Known things at rest. Points on them are removed before clustering.
 struct KnownSurroundings {
-  bool has_ground = false;
-  double ground_z = 0.0;         ///< W, m
-  std::span<const Box> boxes{};  ///< walls and occupied voxels of the map, W
+  std::optional<double> ground_z;  ///< W, m
+  std::span<const Box> boxes{};    ///< walls and occupied voxels of the map, W
 };
 
-/// Finds boxes in depth pictures. It keeps its memory from picture to picture, and is a function of the picture: the
-/// same picture gives the same boxes.
+/// Finds objects in depth pictures. It keeps its memory from picture to picture; its result depends on the picture
+/// alone.
 ///
-/// 1. Points within 0.1 m + 3σ of the ground or of a known box are removed.
-/// 2. Neighbouring pixels whose depths differ by less than 0.25 m + 2√2 σ(z) are one cluster.
-/// 3. A corner, up to three faces that meet, is fitted to a cluster's depths (corner_fit.h).
-/// 4. Points that do not fit (3σ + 5 cm) are peeled off, and make clusters of their own, at most kPeelings times.
-/// 5. Bounds are taken from the fitted faces. Their flags come from the pixels around the cluster.
+/// 1. Points within kSurroundingsMargin + 3σ of the ground or of a known box are removed.
+/// 2. Neighbouring pixels whose depths continue each other are one cluster (clusters.h).
+/// 3. A corner, up to three faces that meet, is fitted to the depths of a cluster (corner_fit.h).
+/// 4. Rays that do not fit are peeled off, if they are at least max(6, 8 %). They are clustered alone, from step 2 on.
+/// 5. Bounds come from the faces, and their flags from the pixels around the cluster (bounds.h).
 ///
-/// Source: Tern's measurements in docs/lab. True boxes are taken to be axis-aligned.
+/// Objects are taken to be axis-aligned boxes. A cluster to which no face fits gives the box of its points, with every
+/// bound Occluded or worse.
 class Detector {
  public:
   Detector();
@@ -56,12 +43,16 @@ class Detector {
   Detector(const Detector&) = delete;
   Detector& operator=(const Detector&) = delete;
 
-  /// Returns the boxes of a picture, by their first pixel. Valid until the next call.
-  const std::vector<SeenBox>& detect(const DepthPicture& picture, const KnownSurroundings& known);
+  /// Returns the sightings of a picture: by their first pixel, peeled ones last. Valid until the next call.
+  const std::vector<Sighting>& detect(const DepthPicture& picture, const KnownSurroundings& surroundings);
 
  private:
   struct Workspace;
   std::unique_ptr<Workspace> work_;
 };
+
+/// Makes the frame of a picture: its sightings, the ones with the most pixels first if there are more than
+/// kMaxSightings, and its view (view.h). The header is empty.
+SightingSet frame_of(const DepthPicture& picture, const std::vector<Sighting>& sightings, UTime at, int sensor_id);
 
 }  // namespace tern

@@ -1,0 +1,211 @@
+#include "perception/bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace tern {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+/// Added to the σ of a bound, m: rounding of edges, and bias of the fit.
+constexpr double kBoundSigma = 0.01;
+/// The mean of n×n pixels with common noise has n times the σ of white noise. Faces of few blocks average less well
+/// than their rays tell; faces that are cut into blocks at random average better: 0.6 n was measured.
+constexpr double kPerBlock = 0.6;
+constexpr double kLeastBad = 0.2;  ///< share of votes
+constexpr int kLeastWhole = 2;     ///< votes
+constexpr int kLeastFitting = 6;   ///< rays
+
+/// Bounds by number, as Sighting::bounds: −x, +x, −y, +y, −z, +z.
+constexpr std::size_t kBounds = 6;
+constexpr std::array<int, kBounds> kSide = {-1, 1, -1, 1, -1, 1};
+
+/// The votes for one bound, and the innermost ray that passed beyond it.
+struct Votes {
+  std::array<int, idx(BoundSight::Unseen)> of{};
+  float beyond = kInfinity;  ///< coordinate times side, m
+
+  [[nodiscard]] BoundSight verdict() const {
+    int all = 0;
+    for (const int n : of) all += n;
+    if (all == 0) return BoundSight::Unseen;
+    BoundSight worst = BoundSight::Occluded;
+    for (const BoundSight sight : {BoundSight::Cut, BoundSight::Touching}) {
+      if (of[idx(sight)] > of[idx(worst)]) worst = sight;
+    }
+    const int bad = of[idx(BoundSight::Occluded)] + of[idx(BoundSight::Cut)] + of[idx(BoundSight::Touching)];
+    if (bad > kLeastBad * all) return worst;
+    return of[idx(BoundSight::Whole)] >= kLeastWhole ? BoundSight::Whole : BoundSight::Unseen;
+  }
+};
+
+/// The work on one cluster. Coordinates are relative to the sensor, axes of W.
+class Surroundings {
+ public:
+  Surroundings(const DepthPicture& picture, const Clusters& clusters, int g, const Corner& corner)
+      : picture_(picture), clusters_(clusters), group_(g), corner_(corner) {
+    outermost.fill(-kInfinity);
+    const PictureShape& shape = picture.shape();
+    R_WC_ = picture.pose().q_WC.toRotationMatrix().cast<float>();
+    columns_ = shape.columns;
+  }
+
+  /// Extremes of coordinate times side.
+  void add_point(const ClusterRays& rays, std::size_t k) {
+    for (std::size_t b = 0; b < kBounds; ++b) {
+      const float at = static_cast<float>(kSide[b]) * rays.ray[b / 2][k] * rays.fitted[k];
+      outermost[b] = std::max(outermost[b], at);
+    }
+  }
+
+  /// The votes of the four neighbours of ray k.
+  void ask_around(const ClusterRays& rays, std::size_t k) {
+    const int pixel = rays.pixel[k], v = pixel / columns_, u = pixel - v * columns_;
+    for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      const int other = neighbour(picture_.shape(), u + du, v + dv);
+      if (other >= 0 && clusters_.group_of(other) == group_) continue;
+      vote(rays, k, other, ray_of(other, u + du, v + dv));
+    }
+  }
+
+  std::array<float, kBounds> outermost{};
+  std::array<Votes, kBounds> votes{};
+
+ private:
+  [[nodiscard]] Eigen::Vector3f ray_of(int pixel, int u, int v) const {
+    if (pixel < 0) return R_WC_ * picture_.shape().ray(u, v).cast<float>();
+    return picture_.rays_W().row(pixel).transpose();
+  }
+
+  /// The depth at which a ray beside ray k meets the continued face of ray k.
+  [[nodiscard]] float continued(const ClusterRays& rays, std::size_t k, const Eigen::Vector3f& ray) const {
+    const float here = rays.fitted[k];
+    const int axis = rays.face[k];
+    const float depth = corner_.plane[idx(axis)] / ray[axis];
+    return depth > 0.5F * here && depth < 2.0F * here ? depth : here;
+  }
+
+  [[nodiscard]] BoundSight judged(int pixel, float depth) const {
+    if (pixel < 0) return BoundSight::Cut;
+    const float measured = picture_.depths()[pixel];
+    if (!(measured > kNotMeasured)) return BoundSight::Occluded;
+    const float margin = kFitSigmas * picture_.sensor().noise.sigma(depth) + kFitMargin;
+    if (measured >= picture_.range() || measured > depth + margin) return BoundSight::Whole;
+    return measured < depth - margin ? BoundSight::Occluded : BoundSight::Touching;
+  }
+
+  void vote(const ClusterRays& rays, std::size_t k, int pixel, const Eigen::Vector3f& ray) {
+    const float depth = continued(rays, k, ray);
+    const BoundSight sight = judged(pixel, depth);
+    const float rounding = 1e-4F * depth;
+    for (std::size_t b = 0; b < kBounds; ++b) {
+      const float at = static_cast<float>(kSide[b]) * ray[static_cast<Eigen::Index>(b / 2)] * depth;
+      if (at <= outermost[b] + rounding) continue;
+      ++votes[b].of[idx(sight)];
+      if (sight == BoundSight::Whole) votes[b].beyond = std::min(votes[b].beyond, at);
+    }
+  }
+
+  const DepthPicture& picture_;
+  const Clusters& clusters_;
+  int group_;
+  const Corner& corner_;
+  Eigen::Matrix3f R_WC_;
+  int columns_ = 0;
+};
+
+/// One bound of a sighting: its coordinate relative to the sensor, times the side.
+struct Bound {
+  double at = 0.0, sigma = 0.0;  ///< m
+  BoundSight sight = BoundSight::Unseen;
+};
+
+Bound face_bound(const DepthPicture& picture, const Corner& corner, std::size_t axis, const Votes& votes) {
+  const int block = picture.sensor().noise.block;
+  const double spread = block > 1 ? kPerBlock * block : 1.0;
+  Bound bound;
+  bound.at = static_cast<double>(corner.side[axis]) * static_cast<double>(corner.plane[axis]);
+  bound.sigma = spread * corner.sigma[axis] + kBoundSigma;
+  if (corner.thin) bound.sigma += 0.5 * picture.shape().pixel_size() * std::abs(bound.at);
+  const BoundSight verdict = votes.verdict();
+  const bool bad = verdict == BoundSight::Occluded || verdict == BoundSight::Cut || verdict == BoundSight::Touching;
+  bound.sight = bad ? verdict : BoundSight::Face;
+  return bound;
+}
+
+Bound end_bound(const Votes& votes, double outermost, double pixel, double face_error) {
+  Bound bound;
+  bound.sight = votes.verdict();
+  bound.at = outermost;
+  double gap = pixel;
+  if (bound.sight == BoundSight::Whole) {
+    gap = static_cast<double>(votes.beyond) - outermost;
+    bound.at += 0.5 * gap;
+  }
+  bound.sigma = std::sqrt(gap * gap / 12.0 + face_error * face_error) + kBoundSigma;
+  return bound;
+}
+
+void set_bound(Sighting& sighting, std::size_t b, const Bound& bound, const Vec3& sensor) {
+  const auto axis = static_cast<Eigen::Index>(b / 2);
+  (kSide[b] < 0 ? sighting.lower : sighting.upper)[axis] = sensor[axis] + kSide[b] * bound.at;
+  (kSide[b] < 0 ? sighting.lower_sigma : sighting.upper_sigma)[axis] = bound.sigma;
+  sighting.bounds[b] = bound.sight;
+}
+
+/// The box of the points of a cluster to which no face fits.
+Sighting unfitted(const DepthPicture& picture, const ClusterRays& rays) {
+  Sighting sighting;
+  Box box;
+  double sigma = 0.0;
+  for (std::size_t k = 0; k < rays.depth.size(); ++k) {
+    box.extend(Vec3(rays.ray[0][k], rays.ray[1][k], rays.ray[2][k]) * static_cast<double>(rays.depth[k]));
+    sigma = std::max(sigma, static_cast<double>(rays.sigma[k]));
+  }
+  sighting.lower = picture.pose().position + box.min();
+  sighting.upper = picture.pose().position + box.max();
+  sighting.lower_sigma = sighting.upper_sigma = Vec3::Constant(3.0 * sigma + kBoundSigma);
+  sighting.bounds.fill(BoundSight::Occluded);
+  sighting.points = rays.count();
+  return sighting;
+}
+
+}  // namespace
+
+Sighting bounds_of(const DepthPicture& picture, const Clusters& clusters, int g, const ClusterRays& rays,
+                   const Corner& corner) {
+  Surroundings around(picture, clusters, g, corner);
+  int fitting = 0;
+  double depth = 0.0, relative = 0.0;
+  for (std::size_t k = 0; k < rays.depth.size(); ++k) {
+    if (rays.face[k] == ClusterRays::kNoFace) continue;
+    around.add_point(rays, k);
+    ++fitting;
+    depth += rays.fitted[k];
+  }
+  if (fitting < kLeastFitting) return unfitted(picture, rays);
+  for (std::size_t k = 0; k < rays.depth.size(); ++k) {
+    if (rays.face[k] != ClusterRays::kNoFace) around.ask_around(rays, k);
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (corner.rays[a] > 0 && corner.side[a] != 0) {
+      relative = std::max(relative, static_cast<double>(corner.sigma[a] / std::abs(corner.plane[a])));
+    }
+  }
+  Sighting sighting;
+  sighting.points = fitting;
+  const double pixel = picture.shape().pixel_size() * depth / fitting;
+  for (std::size_t b = 0; b < kBounds; ++b) {
+    const bool is_face = corner.side[b / 2] == kSide[b] && corner.rays[b / 2] > 0;
+    const double outermost = around.outermost[b];
+    const Bound bound = is_face ? face_bound(picture, corner, b / 2, around.votes[b])
+                                : end_bound(around.votes[b], outermost, pixel, relative * std::abs(outermost));
+    set_bound(sighting, b, bound, picture.pose().position);
+  }
+  sighting.lower = sighting.lower.cwiseMin(sighting.upper);
+  return sighting;
+}
+
+}  // namespace tern

@@ -1,0 +1,33 @@
+// The six bounds of a fitted cluster, and the visibility of each.
+#pragma once
+
+#include "core/world/sighting.h"
+#include "perception/clusters.h"
+#include "perception/corner_fit.h"
+
+namespace tern {
+
+/// Returns the sighting of group g.
+///
+/// Every ray that fits is put on its face, which removes its noise. The extremes of these points per axis are the
+/// bounds. A bound on the side of a fitted face is the face.
+///
+/// The flag of a bound comes from the pixels beside the cluster whose rays pass beyond the bound. Such a ray meets the
+/// continued face at some depth:
+///
+/// | the pixel measured                       | vote     |
+/// |------------------------------------------|----------|
+/// | farther than the face by 3σ + 5 cm, or nothing in range | Whole    |
+/// | nearer by that, or could not measure     | Occluded |
+/// | the same depth                           | Touching |
+/// | – (outside the picture)                  | Cut      |
+///
+/// More than a fifth of the votes for Occluded, Touching or Cut make the bound that. A Whole bound lies between the
+/// outermost point and the innermost ray that passed beyond it. The middle is reported, with the σ of a uniform error.
+/// A bound without votes faces away from the sensor: Unseen.
+///
+/// σ of a face is c·(Σ 1/(σ_i d_i)²)^−½ + 1 cm, with c = 1 for white noise and 0.6 · block otherwise.
+Sighting bounds_of(const DepthPicture& picture, const Clusters& clusters, int g, const ClusterRays& rays,
+                   const Corner& corner);
+
+}  // namespace tern

@@ -1,0 +1,74 @@
+// The visible corner of an axis-aligned box, fitted to the depths of a cluster.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "perception/depth_picture.h"
+
+namespace tern {
+
+/// A ray is on a face if its depth differs from the face's by at most kFitSigmas · σ + kFitMargin. Stereo errors and
+/// small bumps of real surfaces are the margin.
+inline constexpr float kFitSigmas = 3.0F;
+inline constexpr float kFitMargin = 0.05F;  ///< m
+/// Added to the σ of a depth, so that weights stay finite and rounding is no evidence, m.
+inline constexpr float kLeastSigma = 0.003F;
+
+/// Faces that meet in a corner, up to one per axis, relative to the sensor, axes of W.
+struct Corner {
+  std::array<int, 3> side{};     ///< −1: the face at the box's minimum is seen, +1: at its maximum, 0: none
+  std::array<float, 3> plane{};  ///< the face's coordinate, m
+  std::array<float, 3> sigma{};  ///< its standard deviation for white noise, m
+  std::array<int, 3> rays{};     ///< how many rays are on the face
+  bool thin = false;             ///< the only face is one pixel wide, so it may be another face as well
+
+  [[nodiscard]] int faces() const { return (side[0] != 0 ? 1 : 0) + (side[1] != 0 ? 1 : 0) + (side[2] != 0 ? 1 : 0); }
+};
+
+/// The rays of one cluster, side by side in memory.
+class ClusterRays {
+ public:
+  static constexpr std::int8_t kNoFace = -1;
+
+  void gather(const DepthPicture& picture, std::span<const int> pixels);
+
+  [[nodiscard]] int count() const { return static_cast<int>(depth.size()); }
+  /// The depth at which ray k meets a corner, and the axis of the face there; 0 and kNoFace if it meets none.
+  [[nodiscard]] std::pair<float, std::int8_t> meet(const Corner& corner, int k) const;
+
+  std::vector<int> pixel;
+  std::array<std::vector<float>, 3> ray, inverse;  ///< components in W, scaled to depth 1, and 1/component
+  std::vector<float> depth, sigma;                 ///< m
+  std::vector<float> fitted;                       ///< depth of the corner, m
+  std::vector<std::int8_t> face;                   ///< axis of the face; kNoFace: the ray does not fit
+};
+
+/// Fits a corner to a cluster, and sets `fitted` and `face` of its rays.
+///
+/// A pixel i has the depth z_i and the ray d_i. An axis a faces the sensor if the sensor lies outside the 10–90 % range
+/// of the points' coordinates a. The depth of a corner p (relative to the sensor) along a ray is
+///     z_i(p) = max over facing axes a of p_a / d_ia,
+/// as a ray enters a box through the last of its front planes. Starting with p at the quantiles, each turn gives every
+/// ray to the axis of its maximum. Then p_a is the mean of z_i d_ia, weighted by 1/(σ_i d_ia)². Rays that are off by
+/// more than a gate are left out; the gate narrows to 3σ + 2 cm. So of two surfaces behind each other one is fitted.
+///
+/// A face must be supported: by max(6, 4 %) rays, by two pixels each way, and by rays that fit no other face. Without
+/// that the cut end of a beam looks like a face. If no face is supported, the one that is best is kept as `thin`.
+class CornerFitter {
+ public:
+  Corner fit(const DepthPicture& picture, ClusterRays& rays);
+
+ private:
+  void start(const ClusterRays& rays, Corner& corner);
+  void turn(ClusterRays& rays, Corner& corner, float gate);
+  [[nodiscard]] int unsupported(const DepthPicture& picture, const ClusterRays& rays, const Corner& corner) const;
+  [[nodiscard]] bool is_needed(const ClusterRays& rays, const Corner& corner, int axis, double block) const;
+
+  std::vector<float> sorted_;
+};
+
+}  // namespace tern
