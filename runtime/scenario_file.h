@@ -13,8 +13,9 @@ inline constexpr const char* kProcessSections[] = {"simulator", "executor", "pre
                                                    "planner",   "logger",   "mavlink",   "autopilot_sim"};
 
 /// Generators of worlds (WorldSpec::generator).
-inline constexpr const char* kGenerators[] = {"none",          "paper_corridor", "paper_attract", "paper_repel",
-                                              "corridor_demo", "mader_corridor", "sando_forest",  "step_aside"};
+inline constexpr const char* kGenerators[] = {"none",         "paper_corridor", "paper_attract",
+                                              "paper_repel",  "corridor_demo",  "mader_corridor",
+                                              "sando_forest", "step_aside",     "blind_corner"};
 
 /// Reads name, seed, world, uav, semantics and timeout_s (docs/reference/scenarios.md lists every key). The processes
 /// read their own sections. A missing name is the file's name without folder and extension.

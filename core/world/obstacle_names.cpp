@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "core/world/blind_corner.h"
+
 namespace tern {
 namespace {
 
@@ -29,7 +31,8 @@ std::string plain(std::string_view value) {
 std::map<std::int64_t, std::string> obstacle_names(const std::string& yaml) {
   std::map<std::int64_t, std::string> names;
   std::int64_t first = 0, listed = 0;  // id of the first listed obstacle, number of them so far
-  std::string section, key;            // of the first and the second level
+  bool is_blind_corner = false;
+  std::string section, key;  // of the first and the second level
   std::istringstream lines(yaml);
   for (std::string line; std::getline(lines, line);) {
     const std::string_view text(line);
@@ -38,7 +41,11 @@ std::map<std::int64_t, std::string> obstacle_names(const std::string& yaml) {
     if (section != "world:") continue;
     if (text.starts_with("  ") && text.substr(2, 1) != " ") key = line.substr(2, line.find(':') - 2);
     if (text == "  generator: step_aside") return {};
-    if (text.starts_with("  count: ")) first = std::atoll(line.c_str() + 9);
+    if (text == "  generator: blind_corner") is_blind_corner = true;
+    if (text.starts_with("  count: ")) {
+      const int count = std::atoi(line.c_str() + 9);
+      first = is_blind_corner ? blind_corner_obstacles(count) : count;
+    }
     if (key != "obstacles") continue;
     if (text == "    -") ++listed;
     constexpr std::string_view kName = "      name: ";

@@ -6,6 +6,7 @@
 
 #include "core/base/random.h"
 #include "core/world/step_aside.h"
+#include "simulator/worlds/blind_corner.h"
 #include "simulator/worlds/obstacle.h"
 
 namespace tern {
@@ -128,14 +129,19 @@ bool refused(const ObstacleSpec& o, const Vec3& start, const Vec3& goal) {
 Result<GeneratedObstacles> generate(const std::string& generator, int count, std::uint64_t seed, const Vec3& start,
                                     const Vec3& goal, std::optional<double> slowness) {
   if (generator == "step_aside") return GeneratedObstacles{draw_step_aside(seed, start).movers, 0};
+  if (count < 0 || count > kMaxCount) return fail(fmt::format("count {}, not in [0, {}]", count, kMaxCount));
+  if (generator == "blind_corner") {
+    auto drawn = draw_blind_corner(count, seed, start, goal);
+    if (!drawn) return tl::unexpected(drawn.error());
+    return GeneratedObstacles{std::move(*drawn), 0};
+  }
   const Draw draw = find_generator(generator);
   if (draw == nullptr) {
     return fail(
         fmt::format("unknown generator '{}': paper_corridor, paper_attract, paper_repel, corridor_demo, "
-                    "mader_corridor, sando_forest, step_aside or none",
+                    "mader_corridor, sando_forest, step_aside, blind_corner or none",
                     generator));
   }
-  if (count < 0 || count > kMaxCount) return fail(fmt::format("count {}, not in [0, {}]", count, kMaxCount));
   GeneratedObstacles made;
   made.obstacles.reserve(static_cast<std::size_t>(count));
   Rng rng(seed);

@@ -36,6 +36,7 @@ struct GeneratedObstacles {
 ///    long) the first half, rounded down, lies along y, the others along x.
 ///  - step_aside: what core/world/step_aside.h draws for (seed, start). Count and goal do not matter; nothing is
 ///    refused.
+///  - blind_corner: a corridor with `count` gaps (blind_corner.h). Nothing is refused.
 ///
 /// A draw is refused, and repeated from the present state of the stream, if
 ///  - the obstacle's box comes within kStartClearance of the start in the first kStartQuiet (sampled every 10 ms), or

@@ -289,7 +289,7 @@ TEST(ScenarioFile, RefusesUnknownGeneratorsAndCountsWithoutOne) {
   EXPECT_EQ(error_of("world:\n  generator: corridor\n"),
             "a.yaml:2: world.generator: corridor is not one of none, paper_corridor, paper_attract, paper_repel, "
             "corridor_demo, "
-            "mader_corridor, sando_forest, step_aside");
+            "mader_corridor, sando_forest, step_aside, blind_corner");
   EXPECT_EQ(error_of("world:\n  count: 3\n"), "a.yaml:2: world.count: 3 needs world.generator, which is none");
   EXPECT_EQ(error_of("world:\n  generator: sando_forest\n  count: 100001\n"),
             "a.yaml:3: world.count: 100001 is out of range [0, 100000]");

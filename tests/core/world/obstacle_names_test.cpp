@@ -25,6 +25,7 @@ TEST(ObstacleNames, AreThoseThatTheScenarioLists) {
 
 TEST(ObstacleNames, CountTheGeneratedObstaclesFirst) {
   EXPECT_EQ(obstacle_names(world_of("paper_corridor", 300)), (Names{{301, "gate: \"left\""}, {302, "passer"}}));
+  EXPECT_EQ(obstacle_names(world_of("blind_corner", 4)), (Names{{19, "gate: \"left\""}, {20, "passer"}}));
   EXPECT_EQ(obstacle_names(world_of("step_aside", 0)), Names{}) << "its number is drawn";
 }
 
