@@ -17,8 +17,8 @@ namespace tern {
 ///   place of the corridor before the gap sees it: the wall hides it, and a stub of wall behind it hides it from the
 ///   gaps before.
 /// - At a drawn time it walks to the gap, then across the corridor into the opposite gap, where it stays. Its speed is
-///   drawn from [0.5, 2) m/s. It reaches the corridor's middle when a vehicle would that is 2.5 to 5 m/s fast on
-///   average, but sets out at 0.5 s at the earliest.
+///   drawn from [0.5, 2) m/s. In the corridor's middle it meets a vehicle that flies 2.5 to 5 m/s on average. It sets
+///   out at 0.5 s at the earliest.
 ///
 /// The draws are d, then per gap: place, side, speed, time.
 ///

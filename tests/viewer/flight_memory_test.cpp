@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/viewer/known_scene.h"
@@ -86,7 +87,7 @@ TEST(FlightHistory, HasEveryNumberOfAMessage) {
   const support::KnownScene known(kStart);
   Scene scene;
   scene.receive(known.state(at(2.0)));
-  const NumberFields fields = numbers_of(detail_json(scene, {}));
+  const NumberFields fields = vehicle_numbers(scene);
   const auto value = [&](const std::string& name) {
     const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.first == name; });
     return found == fields.end() ? -1.0 : found->second;
@@ -95,6 +96,28 @@ TEST(FlightHistory, HasEveryNumberOfAMessage) {
   EXPECT_EQ(value("UAV_STATE.velocity_mps.x"), 1.0);
   EXPECT_EQ(value("UAV_STATE.speed_mps"), 1.0);
   for (const auto& [name, number] : fields) EXPECT_FALSE(name.ends_with("_us")) << name;
+}
+
+TEST(FlightHistory, HasTheNumbersThatTheInspectorShows) {
+  const support::KnownScene known(kStart);
+  Scene scene;
+  const HorizonRequest request = known.request(at(2.0), 3);
+  scene.receive(request);
+  scene.receive(known.plan(request));
+  scene.receive(known.timing(request.id));
+  std::map<std::string, double> numbers;
+  for (const auto& [name, number] : plan_numbers(scene)) numbers[name] = number;
+  std::size_t compared = 0;
+  const json detail = json::parse(detail_json(scene, {PickKind::Plan, 0, ""}));
+  for (const json& message : detail["messages"]) {
+    const std::string channel = message["channel"].get<std::string>() + ".";
+    for (const auto& [key, value] : message.items()) {
+      if (!value.is_number() || key.ends_with("_us")) continue;
+      EXPECT_NEAR(numbers.at(channel + key), value.get<double>(), 5.1e-5) << channel << key;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 20U);
 }
 
 HorizonRequest request_at(double seconds) {

@@ -20,13 +20,15 @@ std::string to_text(const MessageName& name) {
 }
 
 /// Begins {"channel": …, "name": …, "published_us": …}. The caller adds fields and calls end_object().
-template <class T>
-JsonWriter& begin_message(JsonWriter& json, const Channel<T>& channel, const T& message) {
+/// @tparam Writer  JsonWriter for the inspector, NumberWriter for charts
+template <class Writer, class T>
+Writer& begin_message(Writer& json, const Channel<T>& channel, const T& message) {
   json.begin_object().key("channel").text(channel.name).key("name").text(to_text(message.header.name));
   return json.key("published_us").integer(message.header.utime.us);
 }
 
-void write_vehicle(JsonWriter& json, const Scene& scene) {
+template <class Writer>
+void write_vehicle(Writer& json, const Scene& scene) {
   if (!scene.state()) return;
   const UavState& s = *scene.state();
   begin_message(json, channels::kUavState, s).key("at_us").integer(s.at.us).key("position_m").vec3(s.motion.p);
@@ -75,7 +77,8 @@ void write_obstacle(JsonWriter& json, const Scene& scene, std::int64_t id) {
   }
 }
 
-void write_timing(JsonWriter& json, const PlanTiming& t, double allowed_ms) {
+template <class Writer>
+void write_timing(Writer& json, const PlanTiming& t, double allowed_ms) {
   begin_message(json, channels::kPlanTiming, t).key("request").integer(t.request_id).key("total_ms").number(t.total_ms);
   json.key("allowed_ms").number(allowed_ms);
   json.key("first_answer_ms").number(t.first_answer_ms).key("cpu_ms").number(t.cpu_ms);
@@ -86,7 +89,8 @@ void write_timing(JsonWriter& json, const PlanTiming& t, double allowed_ms) {
   json.key("peak_rss_kb").integer(t.peak_rss_kb).key("from_watchdog").flag(t.from_watchdog).end_object();
 }
 
-void write_plan(JsonWriter& json, const Scene& scene) {
+template <class Writer>
+void write_plan(Writer& json, const Scene& scene) {
   if (!scene.plan()) return;
   const Plan& p = *scene.plan();
   begin_message(json, channels::kPlan, p).key("request").integer(p.request_id);
@@ -196,6 +200,18 @@ std::string detail_json(const Scene& scene, const PickCommand& pick) {
     case PickKind::Result: write_result(json, scene); break;
   }
   return json.end_list().end_object().take();
+}
+
+NumberFields vehicle_numbers(const Scene& scene) {
+  NumberWriter numbers;
+  write_vehicle(numbers, scene);
+  return numbers.take();
+}
+
+NumberFields plan_numbers(const Scene& scene) {
+  NumberWriter numbers;
+  write_plan(numbers, scene);
+  return numbers.take();
 }
 
 }  // namespace tern

@@ -1,10 +1,7 @@
 #include "viewer/bridge/flight_history.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 namespace tern {
 namespace {
@@ -12,7 +9,6 @@ namespace {
 constexpr Duration kEvery{50'000};
 constexpr Duration kRowEvery{40'000};  ///< answers come about every 50 ms, so all are stored
 constexpr std::size_t kMaxSamples = 432'000;
-constexpr std::size_t kMaxFields = 64;  ///< of one table
 constexpr double kDepartureSpeed = 0.05;
 
 template <class Sample>
@@ -23,19 +19,6 @@ void forget_half(std::vector<Sample>& row, std::size_t width = 1) {
 template <class Sample>
 auto first_after(const std::vector<Sample>& row, UTime t) {
   return std::upper_bound(row.begin(), row.end(), t, [](UTime at, const Sample& s) { return at < s.at; });
-}
-
-void collect(const std::string& name, const nlohmann::json& value, NumberFields& fields) {
-  constexpr const char* kAxes[] = {".x", ".y", ".z"};
-  if (value.is_boolean()) {
-    fields.emplace_back(name, value.get<bool>() ? 1.0 : 0.0);
-  } else if (value.is_number()) {
-    fields.emplace_back(name, value.get<double>());
-  } else if (value.is_object()) {
-    for (const auto& [key, part] : value.items()) collect(fmt::format("{}.{}", name, key), part, fields);
-  } else if (value.is_array() && value.size() == 3 && value.front().is_number()) {
-    for (std::size_t k = 0; k < 3; ++k) collect(name + kAxes[k], value[k], fields);
-  }
 }
 
 /// Returns the rows with the least and the greatest value of each stretch, in order of time.
@@ -57,20 +40,6 @@ std::vector<std::size_t> extremes(const std::vector<float>& values, std::size_t 
 }
 
 }  // namespace
-
-NumberFields numbers_of(std::string_view detail_json) {
-  NumberFields fields;
-  const nlohmann::json detail = nlohmann::json::parse(detail_json.begin(), detail_json.end());
-  for (const nlohmann::json& message : detail["messages"]) {
-    const std::string channel = message["channel"].get<std::string>() + ".";
-    for (const auto& [key, value] : message.items()) {
-      const bool is_time = key.ends_with("_us");
-      if (!is_time && key != "channel" && key != "name") collect(channel + key, value, fields);
-    }
-  }
-  if (fields.size() > kMaxFields) fields.resize(kMaxFields);
-  return fields;
-}
 
 void FlightHistory::add(const UavState& state) {
   if (!motion_.empty() && state.at - motion_.back().at < kEvery) return;

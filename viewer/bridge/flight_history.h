@@ -4,23 +4,15 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/base/types.h"
 #include "core/world/horizon.h"
 #include "core/world/vehicle.h"
 #include "viewer/bridge/json_writer.h"
+#include "viewer/bridge/number_writer.h"
 
 namespace tern {
-
-/// The numbers of one message by channel and field: {"PLAN_TIMING.total_ms", 12.5}, …
-using NumberFields = std::vector<std::pair<std::string, double>>;
-
-/// Extracts numbers and booleans from detail_json(). A list of three becomes x, y and z. Names, times in µs since the
-/// epoch and longer lists are skipped.
-NumberFields numbers_of(std::string_view detail_json);
 
 /// Stores samples by the vehicle's clock; samples out of order are ignored. A table holds 432,000 rows, six hours of
 /// answers or nearly five hours of states. When it is full, its older half is deleted.

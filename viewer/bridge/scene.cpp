@@ -45,7 +45,7 @@ void Scene::remember_state() {
                                     map);  ///< before thinning, so the least clearance is not lost
   if (!memory_->history.keeps_row(channels::kUavState.name, state_->at)) return;
   memory_->history.add(*state_);
-  remember(channels::kUavState.name, state_->at, numbers_of(detail_json(*this, {})));
+  remember(channels::kUavState.name, state_->at, vehicle_numbers(*this));
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const NumberFields fields{{"clearance.obstacles_m", obstacles.value_or(kNone)},
                             {"clearance.map_m", map.value_or(kNone)}};
@@ -100,7 +100,7 @@ void Scene::receive(const PlanTiming& message) {
   memory_->events.receive(message, taken_ms(), allowed_ms());
   memory_->history.add_answer(at, plan_->outcome);
   if (!memory_->history.keeps_row(channels::kPlan.name, at)) return;
-  remember(channels::kPlan.name, at, numbers_of(detail_json(*this, {PickKind::Plan, 0, ""})));
+  remember(channels::kPlan.name, at, plan_numbers(*this));
 }
 
 void Scene::receive(const SearchView& message) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "viewer/bridge/commands.h"
+#include "viewer/bridge/number_writer.h"
 #include "viewer/bridge/scene.h"
 
 namespace tern {
@@ -32,5 +33,8 @@ std::string result_json(const Scene& scene);
 /// All messages of one picked object, for people: {"title": …, "messages": [{"channel": …, fields …}]}; for a true
 /// obstacle also "clearance_m".
 std::string detail_json(const Scene& scene, const PickCommand& pick);
+/// The numbers that detail_json() shows of the vehicle's state, and of the plan and its timing.
+NumberFields vehicle_numbers(const Scene& scene);
+NumberFields plan_numbers(const Scene& scene);
 
 }  // namespace tern

@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "runtime/log.h"
-#include "viewer/bridge/app/listening_socket.h"
+#include "viewer/bridge/app/accept_loop.h"
 
 namespace tern {
 namespace {
@@ -281,22 +281,17 @@ class Client : public std::enable_shared_from_this<Client> {
 }  // namespace
 
 struct FoxgloveServer::Impl {
-  void accept() {
-    acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
-      if (error) {
-        log::warn("a Foxglove client could not be accepted: {}", error.message());
-      } else if (clients.connected.size() < kMaxFoxgloveClients) {
-        std::make_shared<Client>(clients, std::move(socket))->start();
-      } else {
-        clients.count_refused();
-      }
-      accept();
-    });
+  void take(tcp::socket socket) {
+    if (clients.connected.size() < kMaxFoxgloveClients) {
+      std::make_shared<Client>(clients, std::move(socket))->start();
+    } else {
+      clients.count_refused();
+    }
   }
 
   Clients clients;
   asio::io_context context{1};
-  tcp::acceptor acceptor{context};
+  std::optional<AcceptLoop> connections;
   std::thread thread;
 };
 
@@ -310,8 +305,8 @@ FoxgloveServer::FoxgloveServer(int listening_fd, Access access, std::vector<std:
   clients.newest.resize(channels.size());
   clients.subscribers = std::vector<std::atomic<int>>(channels.size());
   clients.channels = std::move(channels);
-  impl_->acceptor.assign(is_ipv6_socket(listening_fd) ? tcp::v6() : tcp::v4(), listening_fd);
-  impl_->accept();
+  impl_->connections.emplace(impl_->context, listening_fd, "a Foxglove client",
+                             [impl = impl_.get()](tcp::socket socket) { impl->take(std::move(socket)); });
   impl_->thread = std::thread([impl = impl_.get()] { impl->context.run(); });
 }
 

@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "runtime/log.h"
-#include "viewer/bridge/app/listening_socket.h"
+#include "viewer/bridge/app/accept_loop.h"
 
 namespace tern {
 namespace {
@@ -237,27 +237,20 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 struct WebServer::Impl {
   Impl(int fd, PageFiles files, Access access, const Board& board)
-      : shared{std::move(files), std::move(access), board, {}, 0, 0, {}, {}, {}, {}}, acceptor(context) {
-    acceptor.assign(is_ipv6_socket(fd) ? tcp::v6() : tcp::v4(), fd);
-    accept();
-  }
+      : shared{std::move(files), std::move(access), board, {}, 0, 0, {}, {}, {}, {}},
+        connections(context, fd, "a browser", [this](tcp::socket socket) { take(std::move(socket)); }) {}
 
-  void accept() {
-    acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
-      if (error) {
-        log::warn("a browser could not be accepted: {}", error.message());
-      } else if (shared.connections < kMaxConnections) {
-        std::make_shared<Connection>(shared, std::move(socket))->read();
-      } else {
-        shared.count_refused();
-      }
-      accept();
-    });
+  void take(tcp::socket socket) {
+    if (shared.connections < kMaxConnections) {
+      std::make_shared<Connection>(shared, std::move(socket))->read();
+    } else {
+      shared.count_refused();
+    }
   }
 
   Shared shared;
   asio::io_context context{1};
-  tcp::acceptor acceptor;
+  AcceptLoop connections;
   std::atomic<bool> awake{false};
   std::thread thread;
 };
