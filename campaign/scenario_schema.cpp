@@ -21,7 +21,7 @@ constexpr const char* kExamples[] = {
     "world: {obstacles: [{centre: [5, 0, 1]}], recorded: [{file: a.txt, columns: 6, z_column: 4}]}\n"
     "uav: {body: {radius: 0.1}, flight_box: {min: [-9, -9, 0], max: [99, 9, 9]}}\n"
     "semantics: {regions: [{name: a, class: texture, box: {min: [0, 0, 0], max: [1, 1, 1]}}]}\n"
-    "simulator: {sensor: {mode: noisy}, vehicle: quadrotor}\n"
+    "simulator: {sensor: {mode: noisy}, vehicle: quadrotor, estimation: vio}\n"
     "mapper: {extents: {min: [0, 0, 0], max: [1, 1, 1]}, sources: [{file: town.las}]}\n",
     "world: {obstacles: [{motion: trefoil, centre: [5, 0, 1]}]}\n"
     "uav: {body: {half_extents: [0.1, 0.1, 0.1]}, dynamics: {thrust_min: 2, thrust_max: 39, tilt_max: 70, "
@@ -37,7 +37,8 @@ constexpr const char* kExamples[] = {
     "world: {obstacles: [{motion: waypoints, points: [[0, 5, 0, 1]]}]}\n"};
 
 /// Tables whose keys the user names: every value is like the table's default values.
-constexpr std::string_view kOpenTables[] = {"semantics.classes", "semantics.lambdas", "mapper.classes"};
+constexpr std::string_view kOpenTables[] = {"semantics.classes", "semantics.lambdas", "mapper.classes",
+                                            "simulator.vio.landmarks.regions"};
 
 /// Returns "[0, 10]" or "(0, 10]"; infinite ends are open.
 void add_range(Json& schema, std::string_view range) {

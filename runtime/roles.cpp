@@ -58,14 +58,15 @@ const std::vector<ProcessRole>& process_roles() {
        names_of(kUavState, kSetpoint, kVehicleStatus, kVehicleTruth, kHorizonRequest, kPlan, kFlightResult, kGoal)},
       {"tern-autopilot-sim", Role::Observer, {}},
       {"tern-predictor", Role::Predictor,
-       names_of(kObstacleObservations, kObstacleSightings, kDeclaredMotions, kUavState, kPredictions, kTrackBounds)},
+       names_of(kObstacleObservations, kObstacleSightings, kDeclaredMotions, kUavState, kOdometry, kPredictions,
+                kTrackBounds)},
       {"tern-planner", Role::Planner,
        names_of(kHorizonRequest, kPredictions, kSemanticMap, kGoal, kPlan, kPlanHeading, kPlanTiming, kSearchView)},
       {"tern-mapper", Role::Mapper, names_of(kSemanticMap, kUavState, kPointCloud, kDepthImage)},
       {"tern-logger", Role::Observer, {}},
       {"tern-monitor", Role::Observer,
        names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kSemanticMap,
-                kObstacleObservations, kPredictions, kObstacleTruth, kVehicleTruth, kFlightResult)},
+                kObstacleObservations, kPredictions, kObstacleTruth, kVehicleTruth, kOdometry, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
   };
   return processes;

@@ -34,7 +34,11 @@ PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
     bus_.subscribe(channels::kObstacleObservations,
                    [this](const ObservationSet& observations) { on_observations(observations); });
   }
-  bus_.subscribe(channels::kUavState, [this](const UavState& state) { vehicle_ = state.motion.p; });
+  bus_.subscribe(channels::kUavState, [this](const UavState& state) {
+    vehicle_ = state.motion.p;
+    world_error_.add_vehicle(state.motion.p, state.at);
+  });
+  bus_.subscribe(channels::kOdometry, [this](const Odometry& odometry) { world_error_.add(odometry); });
 }
 
 void PredictorNode::on_declared(const TrackSet& batch) {
@@ -160,10 +164,14 @@ void PredictorNode::publish(UTime now) {
   const Duration horizon = config_.tracker.prediction.horizon;
   std::vector<TrackBound> bounds;
   const bool is_bounds_due = now >= next_bounds_;
-  set.tracks = merged(trimmed(declared_, now, horizon), tracker_.predict(now, is_bounds_due ? &bounds : nullptr), now);
+  std::vector<Track> declared = trimmed(declared_, now, horizon);
+  world_error_.widen(declared, now);
+  const bool has_margin = world_error_.is_known() && !declared.empty();
+  set.tracks = merged(std::move(declared), tracker_.predict(now, is_bounds_due ? &bounds : nullptr), now);
   const bool estimated = std::any_of(set.tracks.begin(), set.tracks.end(),
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
+  if (has_margin) set.confidence = std::min(set.confidence, WorldError::kConfidence);
   if (vehicle_) sort_by_reach(set.tracks, *vehicle_, now, config_.tracker.prediction.horizon);
   const std::int32_t left_out_before = declared_left_out_ + tracker_.left_out();
   set.left_out = left_out_before;

@@ -14,6 +14,7 @@
 #include "core/world/vehicle.h"
 #include "predictor/app/input_watch.h"
 #include "predictor/app/predictor_config.h"
+#include "predictor/models/world_error.h"
 #include "predictor/tracking/tracker.h"
 #include "runtime/batches.h"
 #include "runtime/bus.h"
@@ -43,6 +44,8 @@ inline constexpr Duration kMaxAge{10'000'000};
 ///   waits, and counted as late. step() takes kMaxWorkPerStep and one set at most, so that heartbeats and signals wait
 ///   no longer, however many sets have arrived.
 /// - A track or message that every receiver would refuse is not sent but counted, and HEARTBEAT names its field.
+/// - With ODOMETRY, declared tracks get the margin of things known in W (models/world_error.h). Estimated tracks do not:
+///   the vehicle sees them relative to itself.
 /// - TRACK_BOUNDS, the reason for each estimated track's width, is published with the first set of each kBoundsPeriod.
 ///
 /// | HEARTBEAT            | while                                                                           |
@@ -97,6 +100,7 @@ class PredictorNode final : public Node {
   std::int32_t declared_left_out_ = 0;
   Tracker tracker_;
   std::optional<Vec3> vehicle_;   // W, m
+  WorldError world_error_;        // of things known in W, if the vehicle estimates its own pose
   std::optional<UTime> made_at_;  // empty: no input yet
   std::int64_t sets_ = 0;
   std::int64_t unsendable_ = 0;  // tracks and messages that receivers would refuse

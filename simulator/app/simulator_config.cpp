@@ -1,5 +1,6 @@
 #include "simulator/app/simulator_config.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace tern {
@@ -62,6 +63,58 @@ void read_vehicle(ConfigSection& section, SimulatorConfig& config) {
   config.quadrotor = flight;
 }
 
+/// Reads class of region → landmarks per m².
+decltype(LandmarkSpec::regions) read_textures(ConfigSection section, decltype(LandmarkSpec::regions) textures) {
+  std::vector<std::string> names = section.keys();
+  for (const auto& [name, density] : textures) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  for (const std::string& name : names) {
+    const auto known = std::find_if(textures.begin(), textures.end(), [&](const auto& t) { return t.first == name; });
+    const double density =
+        section.number(name, known == textures.end() ? 0.0 : known->second,
+                       Range::at_least(0.0, LandmarkSpec::kMaxDensity), "landmarks per m² in regions of this class");
+    if (known == textures.end()) {
+      textures.emplace_back(name, density);
+    } else {
+      known->second = density;
+    }
+  }
+  section.finish();
+  return textures;
+}
+
+VioConfig read_vio(ConfigSection section) {
+  VioConfig vio;
+  vio.navigation.max_sigma_m = section.number(
+      "max_sigma_m", vio.navigation.max_sigma_m, Range::positive(1000.0),
+      "the vehicle does not follow while the position's standard deviation is above this, m: it comes to rest");
+  section.section("imu").read(vio.navigation.imu);
+  section.section("camera").read(vio.navigation.camera);
+  ConfigSection landmarks = section.section("landmarks");
+  vio.landmarks.regions = read_textures(landmarks.section("regions"), vio.landmarks.regions);
+  landmarks.read(vio.landmarks);
+  section.section("tracks").read(vio.tracks);
+  section.finish();
+  return vio;
+}
+
+/// Reads `estimation`, and with `vio` its section.
+void read_estimation(ConfigSection& section, SimulatorConfig& config) {
+  const std::string estimation =
+      section.choice("estimation", "perfect", {"perfect", "vio"},
+                     "`perfect`: the vehicle knows its state, up to the model's `estimator`; `vio`: tern-estimator "
+                     "estimates it, by a simulated IMU and stereo camera");
+  const bool is_vio = estimation == "vio";
+  if (!is_vio && !section.has("vio")) return;
+  const VioConfig vio = read_vio(section.section("vio"));  // checked even if it is not used
+  if (!is_vio) return;
+  config.vio = vio;
+  const bool waits =
+      std::find(config.wait_for.begin(), config.wait_for.end(), kEstimatorProcess) != config.wait_for.end();
+  if (!config.wait_for.empty() && !waits) config.wait_for.emplace_back(kEstimatorProcess);
+}
+
 }  // namespace
 
 SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed) {
@@ -84,7 +137,11 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
                                        "earliest arrival, world time, s: for a vehicle that guards its place");
   config.sensor = read_sensor(section.section("sensor"), seed);
   read_vehicle(section, config);
+  read_estimation(section, config);
   section.finish();
+  if (config.vio && !config.quadrotor) {
+    throw section.error("estimation", "vio needs a body that an IMU can measure: set simulator.vehicle=quadrotor");
+  }
   return config;
 }
 

@@ -8,10 +8,21 @@
 
 #include "runtime/config.h"
 #include "simulator/app/start_gate.h"
+#include "simulator/inertial/track_simulator.h"
 #include "simulator/sensors/sensor.h"
 #include "simulator/vehicle/quadrotor_vehicle.h"
 
 namespace tern {
+
+/// The section `simulator.vio`: IMU, cameras and what they see. Only with `estimation: vio`.
+struct VioConfig {
+  NavigationSetup navigation;
+  LandmarkSpec landmarks;
+  TrackSpec tracks;
+};
+
+/// The process that estimates the vehicle's state with `estimation: vio`.
+inline constexpr const char* kEstimatorProcess = "tern-estimator";
 
 struct SimulatorConfig {
   bool declare = true;  ///< publish DECLARED_MOTIONS; false: perception only
@@ -24,6 +35,7 @@ struct SimulatorConfig {
   SensorConfig sensor;
   std::optional<QuadrotorFlight> quadrotor;  ///< nullopt: the perfect vehicle, or an external one
   bool external = false;                     ///< other processes fly the vehicle and publish its state
+  std::optional<VioConfig> vio;  ///< the vehicle flies on the estimate of tern-estimator; nullopt: by the model's own
 };
 
 /// Reads the section and refuses unknown keys. `seed` seeds the sensor's noise. @throws ConfigError.

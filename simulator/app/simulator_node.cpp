@@ -30,6 +30,10 @@ constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
 /// An external vehicle's truth may be this late at the end of a flight's time.
 constexpr Duration kTruthLate{1'000'000};
+/// As the referee's, for the believed state.
+constexpr double kArrivalRadius = 0.2, kArrivalSpeed = 0.1;  // m, m/s
+/// A vehicle that estimates its pose and has believed for this long to be at its goal stays where it is.
+constexpr Duration kBelievedArrival{2'000'000};
 constexpr const char* kMapperProcess = "tern-mapper";
 
 UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }
@@ -69,6 +73,9 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   needs_map_ = std::find(config.wait_for.begin(), config.wait_for.end(), kMapperProcess) != config.wait_for.end();
   referee_.set_earliest_arrival(config.min_flight_s);
   referee_.set_goal(std::nullopt);
+  if (Navigation* navigation = vehicle_->navigation()) {
+    vio_.emplace(bus, referee_.world(), scenario, *config.vio, *navigation);
+  }
   if (config.send_goal) take_goal(scenario_goal(scenario, config.external));
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
@@ -115,13 +122,14 @@ void SimulatorNode::step(UTime now) {
   const bool due = now >= next_state_;
   const bool beat = due && !behind;
   if (beat) vehicle_->advance(now);
+  if (beat && vio_) vio_->publish(world_zero_);
   admit(now);
   if (beat) {
     if (!config_.external) publish_state(now);
     judge(now);
   }
   if (due) next_state_ = next_tick(next_state_, kStatePeriod, now);
-  broadcast_.step(now, vehicle_->truth());
+  broadcast_.step(now, vehicle_->truth(), vehicle_->navigation());
   if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
     // Plans refer to the first GOAL, so the log must contain it.
@@ -246,7 +254,23 @@ void SimulatorNode::judge(UTime now) {
   const UTime to = judged_until(now);
   if (to <= from) return end_without_truth(now);
   for (const CubicPiece& piece : vehicle_->truth().pieces(from, to).pieces) referee_.advance(referee_.now(), piece);
-  if (const auto verdict = referee_.verdict()) end_flight(*verdict, 0, now);
+  if (const auto verdict = referee_.verdict()) return end_flight(*verdict, 0, now);
+  if (vio_) judge_belief(now);
+}
+
+/// The referee has not seen the vehicle arrive. If it believes to have arrived, it will not come nearer.
+void SimulatorNode::judge_belief(UTime now) {
+  const MotionSample believed = vehicle_->estimate(now).motion;
+  const bool is_there = goal_ && goal_->mode == GoalMode::Go &&
+                        (believed.p - goal_->position).norm() <= kArrivalRadius && believed.v.norm() < kArrivalSpeed;
+  if (!is_there) return believes_arrived_since_.reset();
+  if (!believes_arrived_since_) believes_arrived_since_ = now;
+  if (now - *believes_arrived_since_ < kBelievedArrival) return;
+  FlightResult result = referee_.result_so_far();
+  result.outcome = FlightOutcome::Timeout;
+  const double off = (vehicle_->true_state().motion.p - goal_->position).norm();
+  result.detail = fmt::format("the vehicle believes to be at the goal; in truth it is {:.2f} m from it", off);
+  end_flight(result, 0, now);
 }
 
 /// The referee's time follows the vehicle's truth. If that ceases, the flight ends when its time is over all the same.

@@ -13,6 +13,7 @@
 #include "runtime/node.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/start_gate.h"
+#include "simulator/app/vio_sensors.h"
 #include "simulator/app/world_broadcast.h"
 #include "simulator/referee/referee.h"
 #include "simulator/vehicle/vehicle.h"
@@ -38,6 +39,9 @@ inline constexpr int kExitNotReady = 3;  ///< a required process was not ready i
 ///
 /// Ended: FLIGHT_RESULT is repeated for a second while the vehicle comes to rest. Then the exit code is 0, for every
 /// verdict.
+///
+/// A vehicle that estimates its own pose may hover beside its goal and believe to be there. After 2 s of that the
+/// flight ends as a timeout, and its detail has the true distance.
 ///
 /// The referee judges the vehicle's true motion (VEHICLE_TRUTH). UAV_STATE is the estimator's output. The goal is the
 /// scenario's, with id 1, unless config.send_goal is false. A GOAL with a larger id replaces it. It is repeated at 1
@@ -81,6 +85,7 @@ class SimulatorNode final : public Node {
   void admit(UTime now);
   [[nodiscard]] UTime judged_until(UTime now) const;
   void judge(UTime now);
+  void judge_belief(UTime now);
   void end_without_truth(UTime now);
   void end_flight(const FlightResult& result, int exit_code, UTime now);
 
@@ -95,6 +100,8 @@ class SimulatorNode final : public Node {
   MapProgress map_progress_;
   bool needs_map_ = false;    ///< the flight waits for the mapper's map, for the referee
   WorldBroadcast broadcast_;  // of the referee's world
+  std::optional<VioSensors> vio_;
+  std::optional<UTime> believes_arrived_since_;
   std::optional<Goal> goal_;
   std::optional<UTime> world_zero_;
   std::optional<FlightResult> result_;

@@ -79,6 +79,13 @@ std::vector<Duration> appearances_of(const World& world) {
   return times;
 }
 
+/// Moves a frame from the world as it is to the world as it is believed to be. Boxes keep their axes: the yaw of a
+/// belief is off by less than a degree.
+void move_to(ObservationSet& set, const Belief& belief) {
+  set.sensor_position = belief.of(set.sensor_position);
+  for (Detection& detection : set.detections) detection.position = belief.of(detection.position);
+}
+
 }  // namespace
 
 World world_of(const Scenario& scenario) {
@@ -125,8 +132,8 @@ UTime WorldBroadcast::declared_due() const {
   return std::min(next_declared_, std::max(world_zero_ + appearances_.front(), last_declared_ + kDeclaredApart));
 }
 
-void WorldBroadcast::step(UTime now, const MotionHistory& uav) {
-  if (config_.sensor.present) publish_observations(now, uav);
+void WorldBroadcast::step(UTime now, const MotionHistory& uav, const Navigation* navigation) {
+  if (config_.sensor.present) publish_observations(now, uav, navigation);
   if (config_.declare && now >= declared_due()) {
     publish_declared(now, uav.sample(std::min(now, uav.end())).p);
     if (now >= next_declared_) next_declared_ = next_tick(next_declared_, kDeclaredPeriod, now);
@@ -141,12 +148,14 @@ bool WorldBroadcast::is_before_world(UTime t) const {
   return world_zero_ == kFarFuture || (config_.declare && t < world_zero_);
 }
 
-void WorldBroadcast::publish_observations(UTime now, const MotionHistory& uav) {
+void WorldBroadcast::publish_observations(UTime now, const MotionHistory& uav, const Navigation* navigation) {
   for (; frame_arrives(config_.sensor, frames_zero_, frame_) <= now; ++frame_) {
     const UTime taken = frame_taken(config_.sensor, frames_zero_, frame_);
     const Vec3 eye = uav.sample(std::min(taken, uav.end())).p;
     const World& seen = is_before_world(taken) ? before_ : world_;
-    bus_.publish(channels::kObstacleObservations, observe(seen, config_.sensor, frames_zero_, frame_, eye));
+    ObservationSet set = observe(seen, config_.sensor, frames_zero_, frame_, eye);
+    if (navigation != nullptr) move_to(set, navigation->belief_at(taken));
+    bus_.publish(channels::kObstacleObservations, std::move(set));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/splines/motion_history.h"
 #include "runtime/bus.h"
 #include "simulator/app/simulator_config.h"
+#include "simulator/inertial/navigation.h"
 #include "simulator/worlds/coarse_motions.h"
 #include "simulator/worlds/world.h"
 
@@ -43,13 +44,14 @@ class WorldBroadcast {
 
   void start(UTime world_zero, UTime now);
   [[nodiscard]] UTime next_wakeup() const;
-  /// Publishes all due messages. The sensor is at the vehicle's true position at the time of each frame.
-  void step(UTime now, const MotionHistory& uav);
+  /// Publishes all due messages. The sensor is at the vehicle's true position at the time of each frame. It measures
+  /// relative to the vehicle, so its frames are about the world as `navigation` believes it to be; nullptr: as it is.
+  void step(UTime now, const MotionHistory& uav, const Navigation* navigation = nullptr);
   /// Text about motions that did not fit into the newest declaration; empty: all fitted.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
-  void publish_observations(UTime now, const MotionHistory& uav);
+  void publish_observations(UTime now, const MotionHistory& uav, const Navigation* navigation);
   void publish_declared(UTime now, const Vec3& uav);
   void report_left_out(std::int32_t left_out, std::size_t of);
   void publish_truth(UTime now);

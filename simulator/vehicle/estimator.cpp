@@ -5,28 +5,28 @@
 
 namespace tern {
 
-Estimator::Estimator(const EstimatorSpec& spec, std::uint64_t seed) : spec_(spec), rng_(seed) {
+EstimateNoise::EstimateNoise(const EstimatorSpec& spec, std::uint64_t seed) : spec_(spec), rng_(seed) {
   noise_ = spec.position_sigma_m * normal();
   velocity_ = spec.velocity_sigma * normal();
   bias_ = spec.drift_m * normal();
 }
 
-Vec3 Estimator::normal() {
+Vec3 EstimateNoise::normal() {
   const double x = rng_.normal(), y = rng_.normal(), z = rng_.normal();
   return {x, y, z};
 }
 
-void Estimator::jump(double metres) {
+void EstimateNoise::jump(double metres) {
   const double direction = rng_.uniform(0.0, 2.0 * std::numbers::pi);
   jump(metres * Vec3(std::cos(direction), std::sin(direction), 0.0));
 }
 
-void Estimator::jump(const Vec3& by) {
+void EstimateNoise::jump(const Vec3& by) {
   jumped_ += by;
   ++jumps_;
 }
 
-void Estimator::advance(double dt) {
+void EstimateNoise::advance(double dt) {
   const auto move = [&](Vec3& x, double sigma, double time_s) {
     const double keep = std::exp(-dt / time_s);
     x = keep * x + sigma * std::sqrt(1.0 - keep * keep) * normal();

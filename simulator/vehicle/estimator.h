@@ -39,9 +39,9 @@ struct EstimatorSpec {
 
 /// Noise and bias are first-order Markov processes in their stationary state, and jumps add up. Deterministic from the
 /// seed. The caller applies the latency.
-class Estimator {
+class EstimateNoise {
  public:
-  Estimator(const EstimatorSpec& spec, std::uint64_t seed);
+  EstimateNoise(const EstimatorSpec& spec, std::uint64_t seed);
   void advance(double dt);
   [[nodiscard]] Vec3 position_error() const { return noise_ + bias_ + jumped_; }  ///< estimate − truth, m
   [[nodiscard]] Vec3 velocity_error() const { return velocity_; }                 ///< m/s

@@ -78,6 +78,11 @@ FlightEstimate QuadrotorModel::believed() const {
   e.a = acceleration(config_.body, state_, wind_.velocity());
   e.q = state_.q;
   e.w = state_.w;
+  if (other_error_) {
+    e.p += other_error_->position;
+    e.v += other_error_->velocity;
+    e.q = other_error_->attitude * e.q;
+  }
   return e;
 }
 

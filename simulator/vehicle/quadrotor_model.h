@@ -46,6 +46,13 @@ struct VehicleTruth {
   bool on_ground = false;
 };
 
+/// The estimate of an estimator outside of the model: p̂ = p + position, v̂ = v + velocity, q̂ = attitude · q.
+struct NavigationError {
+  Vec3 position = Vec3::Zero();                                  ///< W, m
+  Vec3 velocity = Vec3::Zero();                                  ///< W, m/s
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< in W, unit
+};
+
 /// A simulated quadrotor. It begins in hover at `start`, as after a long hover in the mean wind. If `start` lies on the
 /// ground, it begins standing there.
 ///
@@ -79,6 +86,8 @@ class QuadrotorModel {
   void jump_estimate(double metres) { estimator_.jump(metres); }
   /// The same by a given shift, m.
   void jump_estimate(const Vec3& by) { estimator_.jump(by); }
+  /// Sets the error of another estimator, which adds to this one's until the next call; nullopt: none.
+  void set_estimate_error(const std::optional<NavigationError>& error) { other_error_ = error; }
   [[nodiscard]] int resets() const { return estimator_.jumps(); }
   [[nodiscard]] const QuadrotorState& state() const { return state_; }
 
@@ -90,7 +99,8 @@ class QuadrotorModel {
 
   QuadrotorConfig config_;
   Wind wind_;
-  Estimator estimator_;
+  EstimateNoise estimator_;
+  std::optional<NavigationError> other_error_;
   Duration latency_;
   FlightController controller_;
   QuadrotorState state_;

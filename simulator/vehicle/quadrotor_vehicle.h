@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/world/scenario.h"
 #include "executor/commanded_motion.h"
+#include "simulator/inertial/navigation.h"
 #include "simulator/vehicle/quadrotor_model.h"
 #include "simulator/vehicle/vehicle.h"
 
@@ -17,11 +19,24 @@ struct QuadrotorFlight {
   EstimatorSpec estimator;
 };
 
+/// The inputs of a vehicle that flies on the estimate of tern-estimator.
+struct NavigationSetup {
+  ImuSpec imu;
+  StereoSpec camera;
+  double max_sigma_m = 2.0;
+};
+
 /// Follows the commanded motion (executor/commanded_motion.h) as well as its controller can. Its only limits are
 /// physical. The ground is the floor of the flight box.
+///
+/// With navigation, controller and UAV_STATE have its estimate from the first setpoint on that moves. Until then the
+/// vehicle rests at its start, as on its legs. VEHICLE_STATUS reports the trouble of the navigation. Its
+/// `position_sigma` is the drift of one second: things that were seen are misplaced by that
+/// (docs/decisions/margins-of-an-estimate.md).
 class QuadrotorVehicle final : public Vehicle {
  public:
-  QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& flight, std::uint64_t seed, UTime now);
+  QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& flight, std::uint64_t seed, UTime now,
+                   const std::optional<NavigationSetup>& navigation = {});
 
   void receive(const UavState& setpoint) override { command_.receive(setpoint); }
   void receive(const TimedSpline& committed) override { command_.receive(committed); }
@@ -32,8 +47,10 @@ class QuadrotorVehicle final : public Vehicle {
   [[nodiscard]] UavState estimate(UTime now) override;
   [[nodiscard]] VehicleStatus status(UTime now) const override;
   [[nodiscard]] Limits judged_limits() const override;
+  [[nodiscard]] Navigation* navigation() override { return navigation_ ? &*navigation_ : nullptr; }
 
  private:
+  void navigate();
   EstimatorSpec estimator_;
   Duration lead_;
   QuadrotorModel model_;
@@ -41,6 +58,8 @@ class QuadrotorVehicle final : public Vehicle {
   MotionHistory truth_;
   MotionSample newest_;  ///< at truth_.end()
   UavState published_;
+  std::optional<Navigation> navigation_;
+  bool has_moved_ = false;
 };
 
 }  // namespace tern

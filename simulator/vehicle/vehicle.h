@@ -8,6 +8,8 @@
 
 namespace tern {
 
+class Navigation;
+
 /// A simulated vehicle: body, controller and state estimator. Pure: times are arguments and never go back, and noise
 /// comes from a seed. Before its first setpoint it rests at the scenario's start.
 ///
@@ -42,6 +44,8 @@ class Vehicle {
   /// Limits beyond which the true motion counts as a violation. They are infinite for a vehicle whose limits are
   /// physical, or that only follows motions within limits.
   [[nodiscard]] virtual Limits judged_limits() const = 0;
+  /// The vehicle's navigation, if it flies on the estimate of tern-estimator (simulator.estimation: vio).
+  [[nodiscard]] virtual Navigation* navigation() { return nullptr; }
 };
 
 }  // namespace tern

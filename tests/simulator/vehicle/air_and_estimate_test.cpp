@@ -62,16 +62,16 @@ TEST(Wind, ABurstPeaksInItsMiddleAndIsOver) {
   EXPECT_EQ(wind.velocity(), Vec3::Zero());
 }
 
-TEST(Estimator, WithoutErrorsKnowsTheTruth) {
-  Estimator estimator({}, 1);
+TEST(EstimateNoise, WithoutErrorsKnowsTheTruth) {
+  EstimateNoise estimator({}, 1);
   for (int k = 0; k < 100; ++k) estimator.advance(kDt);
   EXPECT_EQ(estimator.position_error(), Vec3::Zero());
   EXPECT_EQ(estimator.velocity_error(), Vec3::Zero());
   EXPECT_EQ(estimator.jumps(), 0);
 }
 
-TEST(Estimator, ErrorsHaveTheStatedDeviations) {
-  Estimator estimator({.position_sigma_m = 0.03, .velocity_sigma = 0.1, .drift_m = 0.2, .drift_time_s = 1.0}, 2);
+TEST(EstimateNoise, ErrorsHaveTheStatedDeviations) {
+  EstimateNoise estimator({.position_sigma_m = 0.03, .velocity_sigma = 0.1, .drift_m = 0.2, .drift_time_s = 1.0}, 2);
   Vec3 position = Vec3::Zero(), velocity = Vec3::Zero();
   constexpr int kSteps = 400'000;
   for (int k = 0; k < kSteps; ++k) {
@@ -85,8 +85,8 @@ TEST(Estimator, ErrorsHaveTheStatedDeviations) {
   }
 }
 
-TEST(Estimator, JumpsOnceWhenTold) {
-  Estimator estimator({.jump_m = 0.6, .jump_at_s = 1.0}, 3);
+TEST(EstimateNoise, JumpsOnceWhenTold) {
+  EstimateNoise estimator({.jump_m = 0.6, .jump_at_s = 1.0}, 3);
   for (int k = 0; k < 99; ++k) estimator.advance(kDt);
   EXPECT_EQ(estimator.jumps(), 0);
   for (int k = 0; k < 2; ++k) estimator.advance(kDt);
@@ -97,8 +97,8 @@ TEST(Estimator, JumpsOnceWhenTold) {
   EXPECT_EQ(estimator.jumps(), 1);
 }
 
-TEST(Estimator, JumpsAsOftenAsStated) {
-  Estimator estimator({.jump_m = 0.1, .jump_every_s = 2.0}, 4);
+TEST(EstimateNoise, JumpsAsOftenAsStated) {
+  EstimateNoise estimator({.jump_m = 0.1, .jump_every_s = 2.0}, 4);
   for (int k = 0; k < 400'000; ++k) estimator.advance(kDt);
   EXPECT_NEAR(estimator.jumps(), 2000, 3 * std::sqrt(2000.0));
 }

@@ -1,0 +1,43 @@
+// How wrong the position of a thing that is known in W may be, for a vehicle that estimates its own pose.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/world/inertial.h"
+#include "core/world/track.h"
+
+namespace tern {
+
+/// A vehicle flies relative to W as it believes W to be. With errors e_p of position and θ of attitude, a
+/// thing known in W at x is off by e_p + θ × (x − p̂):
+///
+///     Σ(x) = J Σ_pose Jᵀ,   J = [1, −[x − p̂]×],   margin(x) = k √λ_max(Σ(x)) + d,   k = 3.368
+///
+/// k is the 99 % quantile of the length of a normal vector in three dimensions over the standard deviation of each
+/// axis. d is the distance of the position that the vehicle flies by (UAV_STATE) from the estimate in W, while a
+/// correction is still being followed. The margin is rounded up to kStep, so that static obstacles change seldom.
+class WorldError {
+ public:
+  static constexpr double kQuantile = 3.368;   ///< √χ²(3, 0.99)
+  static constexpr double kConfidence = 0.99;  ///< of the margin
+  static constexpr double kStep = 0.05;        ///< m
+
+  /// Takes an ODOMETRY. One without a valid pose changes nothing.
+  void add(const Odometry& odometry);
+  /// Takes the position by which the vehicle flies, W, m.
+  void add_vehicle(const Vec3& p, UTime at);
+  /// Whether there was a valid ODOMETRY.
+  [[nodiscard]] bool is_known() const { return odometry_.has_value(); }
+  /// The margin at x (W, m), per axis; 0 while nothing is known.
+  [[nodiscard]] double margin(const Vec3& x) const;
+  /// Adds to α of each track the margin at its centre at time `at`.
+  void widen(std::vector<Track>& tracks, UTime at) const;
+
+ private:
+  std::optional<Odometry> odometry_;
+  Vec3 p_W_ = Vec3::Zero(), v_W_ = Vec3::Zero();  ///< the estimate's position (m) and velocity (m/s) in W
+  double apart_ = 0.0;                            ///< d, m
+};
+
+}  // namespace tern
