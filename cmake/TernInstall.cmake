@@ -25,6 +25,10 @@ foreach(folder scenarios launch_scripts lcmtypes)
           PATTERN python.sh EXCLUDE
           PATTERN campaign_slurm.sh EXCLUDE PATTERN packages*.txt EXCLUDE)
 endforeach()
+# The command `tern`.
+install(CODE "file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
+file(CREATE_LINK ../share/tern/launch_scripts/tern.sh
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/tern\" SYMBOLIC)" COMPONENT programs)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/python/tern_msgs DESTINATION share/tern/python COMPONENT programs OPTIONAL)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/docs/licensing.md DESTINATION share/doc/tern
         COMPONENT programs)

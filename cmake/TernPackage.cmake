@@ -1,7 +1,6 @@
 # Tern's libraries as a package for other projects: find_package(tern COMPONENTS …), and a .pc file per component for
 # pkg-config. Each component is an install component and an export set of its own, so a project needs only the packages
 # of the components that it names.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(TERN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tern)
@@ -64,7 +63,7 @@ tern_component(planner ABOUT "plan(): one certified trajectory for one request"
   LIBRARIES tern_planner tern_planner_optimization tern_planner_search tern_planner_global_path tern_planner_semantics
             tern_planner_safety
   HEADERS planner NOT "planner/app"
-  REQUIRES tern-core ipopt)
+  REQUIRES tern-core)
 tern_component(predictor ABOUT "tracks of detections, and their predictions"
   LIBRARIES tern_predictor
   HEADERS predictor NOT "predictor/app"

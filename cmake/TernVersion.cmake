@@ -3,13 +3,14 @@ file(WRITE ${CMAKE_BINARY_DIR}/version/write_version.cmake [[
 execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12 OUTPUT_VARIABLE COMMIT
                 OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT COMMIT)
-  set(COMMIT unknown)
+  set(COMMIT ${WITHOUT_GIT})
 endif()
 set(TEXT "#include \"runtime/version.h\"\nnamespace tern {\nconst char* build_id() { return \"${VERSION}+${COMMIT}\"; }\n}\n")
 file(CONFIGURE OUTPUT ${OUT} CONTENT "${TEXT}" @ONLY)  # leaves an equal file alone
 ]])
+set(TERN_COMMIT unknown CACHE STRING "Takes the commit's place in a tree without git, as that of a package")
 add_custom_target(tern_write_version
-  COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
+  COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION} -DWITHOUT_GIT=${TERN_COMMIT}
           -DOUT=${CMAKE_BINARY_DIR}/version/version.cpp -P ${CMAKE_BINARY_DIR}/version/write_version.cmake
   BYPRODUCTS ${CMAKE_BINARY_DIR}/version/version.cpp)
 

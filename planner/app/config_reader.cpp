@@ -1,6 +1,22 @@
 #include "planner/app/config_reader.h"
 
+#include "planner/optimization/ipopt_solver.h"
+
 namespace tern {
+namespace {
+
+/// Returns the key that asks for Ipopt, or null.
+const char* key_for_ipopt(const OptimizationConfig& config) {
+  switch (config.method) {
+    case OptimizationMethod::SearchOnly: return nullptr;
+    case OptimizationMethod::Alternating: return config.solver == ConvexSolver::Ipopt ? "optimization.solver" : nullptr;
+    case OptimizationMethod::Joint:
+    case OptimizationMethod::AlternatingThenJoint: break;
+  }
+  return "optimization.method";
+}
+
+}  // namespace
 
 PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& semantics) {
   PlannerConfig c;
@@ -12,6 +28,9 @@ PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& se
   c.class_lambdas = semantics.lambdas;
   if (c.duration_scales.empty()) throw section.error("duration_scales", "needs at least one number");
   if (c.hold_required_s > c.hold_cap_s) throw section.error("hold_required_s", "is more than hold_cap_s");
+  if (const char* key = key_for_ipopt(c.optimization); key != nullptr && !why_no_ipopt().empty()) {
+    throw section.error(key, "needs Ipopt. " + why_no_ipopt());
+  }
   return c;
 }
 

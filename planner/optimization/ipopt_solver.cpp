@@ -1,136 +1,141 @@
 #include "planner/optimization/ipopt_solver.h"
 
-#include <IpIpoptApplication.hpp>
-#include <IpTNLP.hpp>
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "planner/optimization/nlp_plugin.h"
 
 namespace tern {
 namespace {
 
-using Ipopt::Index;
-using Ipopt::Number;
+constexpr char kFile[] = "tern-ipopt.so";
 
-constexpr double kNoBound = 2e19;  // Ipopt's infinity
-
-class Nlp final : public Ipopt::TNLP {
- public:
-  Nlp(const NonlinearProblem& problem, const Eigen::VectorXd& x0, const StopFunction& stop, const Visit& visit)
-      : p_(problem), x0_(x0), stop_(stop), visit_(visit) {
-    visit_(x0, p_.constraints(x0));
-  }
-
-  [[nodiscard]] int iterations() const { return iterations_; }
-
-  bool get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries,
-                    IndexStyleEnum& style) override {
-    n = p_.variables();
-    m = static_cast<Index>(p_.bounds().size());
-    jacobian_entries = static_cast<Index>(p_.jacobian_pattern().size());
-    hessian_entries = static_cast<Index>(p_.hessian_pattern().size());
-    style = C_STYLE;
-    return true;
-  }
-
-  bool get_bounds_info(Index n, Number* x_low, Number* x_high, Index m, Number* g_low, Number* g_high) override {
-    std::fill_n(x_low, n, -kNoBound);
-    std::fill_n(x_high, n, kNoBound);
-    std::fill_n(g_low, m, -kNoBound);
-    std::copy_n(p_.bounds().data(), m, g_high);
-    return true;
-  }
-
-  bool get_starting_point(Index n, bool, Number* x, bool, Number*, Number*, Index, bool, Number*) override {
-    std::copy_n(x0_.data(), n, x);
-    return true;
-  }
-
-  bool eval_f(Index n, const Number* x, bool, Number& value) override {
-    value = p_.objective(view(x, n));
-    return true;
-  }
-
-  bool eval_grad_f(Index n, const Number* x, bool, Number* gradient) override {
-    Eigen::Map<Eigen::VectorXd>(gradient, n) = p_.gradient(view(x, n));
-    return true;
-  }
-
-  bool eval_g(Index n, const Number* x, bool, Index m, Number* g) override {
-    const Eigen::VectorXd at = view(x, n);
-    const Eigen::VectorXd constraints = p_.constraints(at);
-    std::copy_n(constraints.data(), m, g);
-    visit_(at, constraints);
-    return true;
-  }
-
-  bool eval_jac_g(Index n, const Number* x, bool, Index, Index, Index* rows, Index* columns, Number* values) override {
-    if (values == nullptr)
-      copy(p_.jacobian_pattern(), rows, columns);
-    else
-      p_.jacobian(view(x, n), values);
-    return true;
-  }
-
-  bool eval_h(Index n, const Number* x, bool, Number factor, Index, const Number* multipliers, bool, Index, Index* rows,
-              Index* columns, Number* values) override {
-    if (values == nullptr)
-      copy(p_.hessian_pattern(), rows, columns);
-    else
-      p_.hessian(view(x, n), factor, multipliers, values);
-    return true;
-  }
-
-  bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number, Number, Number, Number, Number, Number,
-                             Number, Number, Index, const Ipopt::IpoptData*,
-                             Ipopt::IpoptCalculatedQuantities*) override {
-    iterations_ = iteration;
-    return !stop_();
-  }
-
-  void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*, Index, const Number*,
-                         const Number*, Number, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {}
-
- private:
-  static Eigen::VectorXd view(const Number* x, Index n) { return Eigen::Map<const Eigen::VectorXd>(x, n); }
-
-  static void copy(const SparsePattern& pattern, Index* rows, Index* columns) {
-    std::copy(pattern.rows.begin(), pattern.rows.end(), rows);
-    std::copy(pattern.columns.begin(), pattern.columns.end(), columns);
-  }
-
-  const NonlinearProblem& p_;
-  Eigen::VectorXd x0_;
-  const StopFunction& stop_;
-  const Visit& visit_;
-  int iterations_ = 0;
+struct Plugin {
+  TernNlpMinimise* minimise = nullptr;
+  std::string why_not;
 };
 
-/// Sets the options, tuned on recorded problems. The monotone barrier from 1e-2 and the AMD ordering of MUMPS take half
-/// the time of Ipopt's defaults.
-void set_options(Ipopt::IpoptApplication& app, int max_iterations) {
-  const auto options = app.Options();
-  options->SetIntegerValue("print_level", 0);
-  options->SetStringValue("sb", "yes");
-  options->SetIntegerValue("max_iter", max_iterations);
-  options->SetNumericValue("tol", 1e-6);
-  options->SetNumericValue("bound_relax_factor", 0.0);
-  options->SetStringValue("mu_strategy", "monotone");
-  options->SetNumericValue("mu_init", 1e-2);
-  options->SetIntegerValue("mumps_pivot_order", 0);
-  options->SetStringValue("nlp_scaling_method", "none");
+/// Folders that may hold the plug-in: beside this code, and those of an installation.
+std::vector<std::filesystem::path> folders() {
+  std::vector<std::filesystem::path> beside;
+  std::error_code unreadable;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", unreadable);
+  if (!unreadable) beside.push_back(program.parent_path());
+  Dl_info here{};
+  if (dladdr(reinterpret_cast<const void*>(&why_no_ipopt), &here) != 0 && here.dli_fname != nullptr) {
+    const auto object = std::filesystem::weakly_canonical(here.dli_fname, unreadable);
+    if (!unreadable && object.parent_path() != program.parent_path()) beside.push_back(object.parent_path());
+  }
+  std::vector<std::filesystem::path> found = beside;
+  for (const auto& folder : beside) found.push_back(folder.parent_path() / TERN_LIBRARY_FOLDER / "tern");
+  found.emplace_back(std::filesystem::path(TERN_FULL_LIBRARY_FOLDER) / "tern");
+  return found;
 }
+
+Plugin load() {
+  std::vector<std::string> looked;
+  for (const auto& folder : folders()) {
+    const std::filesystem::path file = folder / kFile;
+    std::error_code unreadable;
+    if (!std::filesystem::exists(file, unreadable)) {
+      looked.push_back(folder.string());
+      continue;
+    }
+    void* object = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed: it is used until the process ends
+    if (object == nullptr) return {nullptr, fmt::format("Ipopt cannot be loaded: {}", dlerror())};
+    auto* minimise = reinterpret_cast<TernNlpMinimise*>(dlsym(object, kTernNlpMinimise));
+    if (minimise == nullptr)
+      return {nullptr, fmt::format("{} is of another version of Tern: it has no {}", file.string(), kTernNlpMinimise)};
+    return {minimise, ""};
+  }
+  return {nullptr, fmt::format("{} is not installed (Debian: tern-ipopt; in the tree: launch_scripts/build.sh "
+                               "tern-ipopt). It was looked for in {}",
+                               kFile, fmt::join(looked, ", "))};
+}
+
+const Plugin& plugin() {
+  static const Plugin loaded = load();
+  return loaded;
+}
+
+/// A problem as the plug-in's functions see it.
+struct Task {
+  const NonlinearProblem& problem;
+  const StopFunction& stop;
+  const Visit& visit;
+
+  [[nodiscard]] Eigen::VectorXd view(const double* x) const {
+    return Eigen::Map<const Eigen::VectorXd>(x, problem.variables());
+  }
+};
+
+const Task& task_of(void* problem) { return *static_cast<const Task*>(problem); }
+
+double objective(void* problem, const double* x) {
+  const Task& task = task_of(problem);
+  return task.problem.objective(task.view(x));
+}
+
+void gradient(void* problem, const double* x, double* gradient) {
+  const Task& task = task_of(problem);
+  Eigen::Map<Eigen::VectorXd>(gradient, task.problem.variables()) = task.problem.gradient(task.view(x));
+}
+
+void constraint_values(void* problem, const double* x, double* c) {
+  const Task& task = task_of(problem);
+  const Eigen::VectorXd at = task.view(x);
+  const Eigen::VectorXd constraints = task.problem.constraints(at);
+  std::copy_n(constraints.data(), constraints.size(), c);
+  task.visit(at, constraints);
+}
+
+void jacobian(void* problem, const double* x, double* entries) {
+  const Task& task = task_of(problem);
+  task.problem.jacobian(task.view(x), entries);
+}
+
+void hessian(void* problem, const double* x, double factor, const double* multipliers, double* entries) {
+  const Task& task = task_of(problem);
+  task.problem.hessian(task.view(x), factor, multipliers, entries);
+}
+
+int stops(void* problem) { return task_of(problem).stop() ? 1 : 0; }
 
 }  // namespace
 
+const std::string& why_no_ipopt() { return plugin().why_not; }
+
 IpoptRun minimise_by_ipopt(const NonlinearProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
                            const StopFunction& stop, const Visit& visit) {
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> app = new Ipopt::IpoptApplication(false);
-  set_options(*app, max_iterations);
-  if (app->Initialize("") != Ipopt::Solve_Succeeded) return {true, 0};
-  Ipopt::SmartPtr<Nlp> nlp = new Nlp(problem, x0, stop, visit);
-  const Ipopt::ApplicationReturnStatus status = app->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
-  const bool failed = status != Ipopt::Solve_Succeeded && status != Ipopt::Solved_To_Acceptable_Level &&
-                      status != Ipopt::User_Requested_Stop && status != Ipopt::Maximum_Iterations_Exceeded;
-  return {failed, nlp->iterations()};
+  if (plugin().minimise == nullptr) throw std::runtime_error(why_no_ipopt());
+  visit(x0, problem.constraints(x0));
+  Task task{problem, stop, visit};
+  const SparsePattern &j = problem.jacobian_pattern(), &h = problem.hessian_pattern();
+  const TernNlp nlp{.problem = &task,
+                    .variables = problem.variables(),
+                    .constraints = static_cast<int>(problem.bounds().size()),
+                    .jacobian_entries = static_cast<int>(j.size()),
+                    .hessian_entries = static_cast<int>(h.size()),
+                    .jacobian_rows = j.rows.data(),
+                    .jacobian_columns = j.columns.data(),
+                    .hessian_rows = h.rows.data(),
+                    .hessian_columns = h.columns.data(),
+                    .start = x0.data(),
+                    .bounds = problem.bounds().data(),
+                    .objective = objective,
+                    .gradient = gradient,
+                    .constraint_values = constraint_values,
+                    .jacobian = jacobian,
+                    .hessian = hessian,
+                    .stop = stops};
+  const TernNlpRun run = plugin().minimise(&nlp, max_iterations);
+  return {run.failed != 0, run.iterations};
 }
 
 ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,

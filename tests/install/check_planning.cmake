@@ -1,5 +1,5 @@
 # Installs the components into WORK/prefix. Builds CONSUMER against them by find_package() and by pkg-config, and runs both
-# on LOG. A project that names core alone finds it without the other components' packages.
+# on LOG. A project that plans without logs needs no package of pkg-config, nor Ipopt.
 file(REMOVE_RECURSE ${WORK})
 foreach(component core messages planner predictor replay)
   execute_process(COMMAND ${CMAKE_COMMAND} --install ${TERN_BUILD} --prefix ${WORK}/prefix --component ${component}
@@ -19,21 +19,21 @@ execute_process(COMMAND sh -c "${CXX} ${CXX_FLAGS} -std=c++20 ${CONSUMER}/main.c
                 COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK}/by_pkg_config ${LOG} COMMAND_ERROR_IS_FATAL ANY)
 
-# Without Ipopt a project that plans is told what it lacks. (An empty PKG_CONFIG_LIBDIR hides every package.)
+# Without LCM a project that reads logs is told what it lacks. (An empty PKG_CONFIG_LIBDIR hides every package.)
 execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_LIBDIR=${WORK} PKG_CONFIG_PATH= ${configure} -B ${WORK}/without
                 RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
 string(REGEX REPLACE "[ \n]+" " " said "${said}")
-if(result EQUAL 0 OR NOT said MATCHES "component planner needs ipopt \\(Debian: coinor-libipopt-dev\\)")
-  message(FATAL_ERROR "not told that Ipopt is missing: ${said}")
+if(result EQUAL 0 OR NOT said MATCHES "component replay needs lcm \\(Debian: liblcm-dev\\)")
+  message(FATAL_ERROR "not told that LCM is missing: ${said}")
 endif()
-file(WRITE ${WORK}/core_only/CMakeLists.txt
-  "cmake_minimum_required(VERSION 3.22)\nproject(core_only CXX)\nfind_package(tern REQUIRED COMPONENTS core)\n")
-list(TRANSFORM configure REPLACE "^${CONSUMER}$" ${WORK}/core_only)
+file(WRITE ${WORK}/plans_only/CMakeLists.txt
+  "cmake_minimum_required(VERSION 3.22)\nproject(plans_only CXX)\nfind_package(tern REQUIRED COMPONENTS planner predictor)\n")
+list(TRANSFORM configure REPLACE "^${CONSUMER}$" ${WORK}/plans_only)
 execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_LIBDIR=${WORK} PKG_CONFIG_PATH= ${configure}
-                -B ${WORK}/core_only/build OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+                -B ${WORK}/plans_only/build OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(WRITE ${WORK}/unknown/CMakeLists.txt
   "cmake_minimum_required(VERSION 3.22)\nproject(unknown CXX)\nfind_package(tern REQUIRED COMPONENTS plannner)\n")
-list(TRANSFORM configure REPLACE "^${WORK}/core_only$" ${WORK}/unknown)
+list(TRANSFORM configure REPLACE "^${WORK}/plans_only$" ${WORK}/unknown)
 execute_process(COMMAND ${configure} -B ${WORK}/unknown/build RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
 if(result EQUAL 0 OR NOT said MATCHES "no component plannner")
   message(FATAL_ERROR "a wrong component is not named: ${said}")
