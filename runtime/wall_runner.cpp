@@ -8,12 +8,15 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <lcm/lcm-cpp.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "runtime/lcm_network.h"
 #include "runtime/log.h"
+#include "runtime/service_manager.h"
 
 namespace tern {
 namespace {
@@ -47,6 +50,9 @@ void take_signal(int stop_fd) {
   }
 }
 
+/// Returns how many heartbeats the process has sent.
+std::int64_t heartbeats_of(const Bus& bus) { return bus.counters()[channels::kHeartbeat.name].sent; }
+
 /// Finds out that no message comes in, not even the own heartbeats.
 class HearingWatch {
  public:
@@ -66,7 +72,7 @@ class HearingWatch {
  private:
   static constexpr Duration kDeaf{2'000'000};
   static constexpr std::int64_t kSeveral = 3;
-  [[nodiscard]] std::int64_t heartbeats() const { return bus_.counters()[channels::kHeartbeat.name].sent; }
+  [[nodiscard]] std::int64_t heartbeats() const { return heartbeats_of(bus_); }
   void begin(UTime now) {
     heard_at_ = now;
     sent_ = heartbeats();
@@ -99,22 +105,45 @@ class NetworkKeeper {
   std::chrono::steady_clock::time_point next_{};
 };
 
+/// Tells the service manager of the process's heartbeats, at most every kMaxSleep.
+class AliveReports {
+ public:
+  explicit AliveReports(NodeHost& host) : host_(host), manager_(std::getenv("NOTIFY_SOCKET")) {}
+  void report() {
+    using Steady = std::chrono::steady_clock;
+    if (!manager_.exists() || Steady::now() < next_) return;
+    next_ = Steady::now() + std::chrono::microseconds(kMaxSleep.us);
+    const std::int64_t sent = heartbeats_of(host_.bus());
+    if (std::exchange(reported_, sent) != sent) manager_.alive(host_.node().health());
+  }
+  void stopping() { manager_.stopping(); }
+
+ private:
+  NodeHost& host_;
+  ServiceManager manager_;
+  std::int64_t reported_ = 0;
+  std::chrono::steady_clock::time_point next_{};
+};
+
 }  // namespace
 
 int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd, MulticastSockets* sockets) {
   const Clock& clock = host.bus().clock();
   NetworkKeeper network(sockets, host.bus());
+  AliveReports manager(host);
   pollfd fds[2] = {{lcm.getFileno(), POLLIN, 0}, {stop_fd, POLLIN, 0}};
   while (true) {
     drain(lcm, kMaxMessagesPerStep, kMaxTimePerStep);
     host.bus().rethrow();
     const UTime now = clock.now();
     if (host.is_due(now)) host.step(now);
+    manager.report();
     if (const auto code = host.node().finished()) return *code;
     const UTime wakeup = host.next_wakeup();
     const Duration sleep = std::min(wakeup - clock.now(), kMaxSleep);
     if (wait(fds, clock.in_system_time(sleep))) {
       take_signal(stop_fd);
+      manager.stopping();
       if (!host.end(clock.now())) continue;
       // A recorder keeps all messages that have arrived; the others only look at them.
       drain(lcm, kListenCapacity, host.bus().listens() ? std::nullopt : std::optional(kMaxTimeAtStop));

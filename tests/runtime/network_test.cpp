@@ -1,17 +1,25 @@
 // Real processes over UDP multicast. Runs inside tests/support/hermetic.sh, which gives it a network of its own.
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <lcm/lcm-cpp.hpp>
 #include <string>
 
 #include "messages/codec.h"
+#include "runtime/service_manager.h"
 #include "runtime/version.h"
 #include "runtime/wall_runner.h"
 #include "talker.h"
 #include "tests/support/child_process.h"
 #include "tests/support/network_end.h"
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {
@@ -51,6 +59,59 @@ TEST_F(NetworkTest, AProcessBeatsReportsAnswersAndEndsWithZeroOnSigterm) {
   EXPECT_EQ(bus->counters()["GOAL_ANSWER"].lost, 0);
   child.signal(SIGTERM);
   EXPECT_EQ(child.wait(), 0) << child.output;
+}
+
+/// A service manager's socket.
+class Manager {
+ public:
+  Manager() : fd_(socket(AF_UNIX, SOCK_DGRAM, 0)) {
+    const std::string path = folder_.file("notify");
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path.c_str(), sizeof(address.sun_path) - 1);
+    if (bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) throw std::runtime_error("bind");
+    setenv("NOTIFY_SOCKET", path.c_str(), 1);
+  }
+  ~Manager() {
+    unsetenv("NOTIFY_SOCKET");
+    close(fd_);
+  }
+  Manager(const Manager&) = delete;
+  Manager& operator=(const Manager&) = delete;
+  /// The next report; "" after kPatienceMs.
+  std::string next() {
+    pollfd ready{fd_, POLLIN, 0};
+    char text[1000];
+    if (poll(&ready, 1, kPatienceMs) != 1) return "";
+    return {text, static_cast<std::size_t>(std::max<ssize_t>(recv(fd_, text, sizeof(text), 0), 0))};
+  }
+
+ private:
+  TempFolder folder_;
+  int fd_;
+};
+
+TEST_F(NetworkTest, TheServiceManagerHearsThatAProcessIsReadyAliveAndStopping) {
+  Manager manager;
+  Child child(echo());
+  ASSERT_TRUE(wait_until_ready());
+  for (int beat = 0; beat < 3; ++beat) EXPECT_EQ(manager.next(), "READY=1\nWATCHDOG=1\nSTATUS=ready");
+  child.signal(SIGTERM);
+  std::string last;
+  while (last != "STOPPING=1" && !(last = manager.next()).empty()) {
+  }
+  EXPECT_EQ(last, "STOPPING=1");
+  EXPECT_EQ(child.wait(), 0) << child.output;
+}
+
+TEST(ServiceManagerTest, WithoutASocketThatWorksAProcessRunsAndSaysSo) {
+  for (const char* none : {static_cast<const char*>(nullptr), "", "relative", "/nowhere/notify"}) {
+    ServiceManager manager(none);
+    EXPECT_FALSE(manager.exists());
+    manager.alive({ProcessState::Ready, ""});
+    manager.stopping();
+  }
+  EXPECT_FALSE(ServiceManager(("/" + std::string(200, 'x')).c_str()).exists());
 }
 
 TEST_F(NetworkTest, SigintEndsAProcessEvenIfItsParentIgnoredIt) {
