@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "estimator/app/estimator_node.h"
 #include "executor/executor.h"
 #include "logger/app/logger_node.h"
 #include "mavlink/bridge_config.h"
@@ -86,6 +87,7 @@ void read_every_section(ConfigDocument& document) {
   (void)read_sections(document, read_scenario(document));
   ConfigSection root = document.root();
   (void)read_logger_config(root.section("logger"));
+  (void)root.section("estimator").read<EstimatorNodeConfig>();
   (void)root.section("mavlink").read<mavlink::BridgeConfig>();
   (void)root.section("autopilot_sim").read<mavlink::SimulatedAutopilotConfig>();
 }

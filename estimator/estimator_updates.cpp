@@ -8,6 +8,7 @@ namespace {
 
 /// Clones that left the window stay as anchors, this far apart, for as long as the drift over 1 s needs them.
 constexpr Duration kAnchorSpacing{250'000}, kAnchorAge{1'200'000};
+constexpr double kLostDeviation = 1e3;  ///< m: a position that is known worse is of no use
 /// When the filter follows the IMU without frames, it moves this far at a time.
 constexpr Duration kFollowStep{50'000};
 /// Sums of used and refused features decay by this per frame; from kLeastJudged features on, this share is too much.
@@ -36,7 +37,9 @@ void Estimator::State::process() {
   const bool by_time = follow();
   if (!by_frames && !by_fixes && !by_time) return;
   move_ahead();
-  if (!filter->is_finite()) {
+  const NavMatrix J = ordinary_error_jacobian(ahead.nav);
+  const double variance = (J * ahead.P * J.transpose()).block<3, 3>(kErrorP, kErrorP).trace();
+  if (!filter->is_finite() || !(variance < kLostDeviation * kLostDeviation)) {
     status.phase = EstimatorPhase::Lost;
     return;
   }

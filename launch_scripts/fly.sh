@@ -79,6 +79,11 @@ parse() {
 # gives SECTION: whether scenario or settings may hold this section. Then its process checks it, even if it does not fly.
 gives() { grep -q "$1" "$scenario_file" || [[ ${flight[*]} == *" --set=$1"* ]]; }
 
+# flies_on_estimate: whether scenario or settings ask for tern-estimator.
+flies_on_estimate() {
+  [[ ${flight[*]} == *"simulator.estimation=vio"* ]] || grep -Eq '\bestimation: *"?vio' "$scenario_file"
+}
+
 # Adds the remaining programs.
 choose_programs() {
   if [[ -n $check ]]; then
@@ -86,6 +91,7 @@ choose_programs() {
     return
   fi
   [[ -z $view ]] || programs+=(tern-viewer tern-listen)
+  ! gives estimator && ! flies_on_estimate || programs+=(tern-estimator)
   [[ -z $autopilot ]] && ! gives mavlink || programs+=(tern-mavlink)
   [[ $autopilot != sim ]] && ! gives autopilot_sim || programs+=(tern-autopilot-sim)
 }

@@ -72,6 +72,7 @@ std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, co
       .restarted = false;
   for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
     add(name, {});
+  if (options.estimates) add(kEstimator, {});
   if (!options.autopilot.empty()) add(kMavlink, {"--connect", options.autopilot});
   if (options.autopilot_sim) {
     const std::string place = options.autopilot.substr(options.autopilot.find("//"));
@@ -87,7 +88,8 @@ std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOpti
                                                                 const std::vector<SupervisedProcess>& processes,
                                                                 const std::vector<std::string>& sections) {
   std::vector<std::vector<std::string>> checks;
-  for (const auto& [name, section] : {std::pair{kMavlink, "mavlink"}, std::pair{kAutopilotSim, "autopilot_sim"}}) {
+  for (const auto& [name, section] : std::initializer_list<std::pair<const char*, const char*>>{
+           {kEstimator, "estimator"}, {kMavlink, "mavlink"}, {kAutopilotSim, "autopilot_sim"}}) {
     const auto flies = [name = name](const SupervisedProcess& p) { return p.name == name; };
     if (std::any_of(processes.begin(), processes.end(), flies)) continue;
     if (std::find(sections.begin(), sections.end(), section) == sections.end()) continue;

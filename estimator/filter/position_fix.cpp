@@ -57,9 +57,9 @@ Eigen::RowVector3d yaw_row(const Matrix3d& R) {
 
 }  // namespace
 
-FixOutcome use_fix(Msckf& filter, UTime filter_at, const PositionFix& fix) {
+std::optional<FixRows> fix_rows(const Msckf& filter, UTime filter_at, const PositionFix& fix) {
   const auto found = bracket(filter, filter_at, fix.at);
-  if (!found) return FixOutcome::TooOld;
+  if (!found) return std::nullopt;
   const Vec3 p = position_between(*found);
   const Index rows = fix.has_yaw ? 4 : 3;
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows, filter.covariance().cols());
@@ -67,7 +67,7 @@ FixOutcome use_fix(Msckf& filter, UTime filter_at, const PositionFix& fix) {
   r.head<3>() = (fix.position - p).cwiseQuotient(fix.variance.cwiseSqrt());
   const Matrix3d white = fix.variance.cwiseSqrt().cwiseInverse().asDiagonal();
   const auto add_pose = [&](const TimedPose& pose, double share) {
-    H.block<3, 3>(0, pose.column) -= share * white * skew(p);
+    H.block<3, 3>(0, pose.column) -= share * white * skew(pose.p);
     H.block<3, 3>(0, pose.column + 3) += share * white;
     if (fix.has_yaw) H.block<1, 3>(3, pose.column) += share * yaw_row(pose.R) / std::sqrt(fix.yaw_variance);
   };
@@ -78,6 +78,14 @@ FixOutcome use_fix(Msckf& filter, UTime filter_at, const PositionFix& fix) {
     const Matrix3d R = exp_rotation(found->share * log_rotation(turn)) * found->before.R;
     r[3] = std::remainder(fix.yaw - std::atan2(R(1, 0), R(0, 0)), 2.0 * std::numbers::pi) / std::sqrt(fix.yaw_variance);
   }
+  return FixRows{std::move(H), std::move(r)};
+}
+
+FixOutcome use_fix(Msckf& filter, UTime filter_at, const PositionFix& fix) {
+  const auto found = fix_rows(filter, filter_at, fix);
+  if (!found) return FixOutcome::TooOld;
+  const auto& [H, r] = *found;
+  const Index rows = r.size();
   const Eigen::MatrixXd S =
       H * filter.covariance() * H.transpose() + Eigen::MatrixXd(Eigen::MatrixXd::Identity(rows, rows));
   const double limit = chi_square_quantile(static_cast<int>(rows), kGate9999);

@@ -1,11 +1,22 @@
 // How a position fix corrects the filter.
 #pragma once
 
+#include <optional>
+
 #include "core/base/time.h"
 #include "core/world/inertial.h"
 #include "estimator/filter/msckf.h"
 
 namespace tern {
+
+/// Residuals of a fix and their derivatives by all errors of the filter, whitened.
+struct FixRows {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd r;
+};
+/// nullopt if the fix is older than all poses.
+/// @pre fix.at ≤ filter_at
+std::optional<FixRows> fix_rows(const Msckf& filter, UTime filter_at, const PositionFix& fix);
 
 enum class FixOutcome { Used, TooOld, Contradicts };
 

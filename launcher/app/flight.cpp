@@ -199,6 +199,7 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
     throw std::runtime_error("--pace: a real autopilot's clock cannot be slowed; use --pace 1");
   }
   if (!options.autopilot.empty()) options.autopilot_limits = autopilot_limits(scenario.uav.limits);
+  options.estimates = document.root().section("simulator").text("estimation", "perfect") == "vio";
   int looked[2] = {-1, -1};
   if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
   int listens[2] = {-1, -1};

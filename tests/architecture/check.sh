@@ -57,34 +57,34 @@ one_folder Beast '^boost/beast'
 only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
-ours='^(core|perception|messages|ros_messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/'
+ours='^(core|perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/'
 never '^core/base/' "^core/(geometry|splines|world|drawing)/" 'base stands on nothing'
 never '^core/geometry/' '^core/(splines|world|drawing)/' 'geometry stands on base'
 never '^core/splines/' '^core/(world|drawing)/' 'splines stand on base and geometry'
 never '^core/world/' '^core/drawing/' 'what is drawn stands on world'
-never '^core/' '^(perception|messages|ros_messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^core/' '^(perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^perception/' '^(messages|ros_messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^perception/' '^(messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'perception stands on core'
-never '^messages/' '^(perception|ros_messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^messages/' '^(perception|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'messages stand on core'
-never '^ros_messages/' '^(perception|messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^ros_messages/' '^(perception|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'ROS messages stand on core'
-never '^flight_log/' '^(perception|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^flight_log/' '^(perception|runtime|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'the log stands on core and messages'
-never '^runtime/' '^(perception|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^runtime/' '^(perception|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'runtime stands on core and messages'
 
-never '^(planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
-never '^(core|messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools)/' \
+never '^(planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
+never '^(core|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools)/' \
   '^python/' 'the Python package stands on all others'
 
 # Who starts the others knows how to sum up for a monitor that cannot, no messages and no other process.
-never '^launcher/' '^(perception|messages|flight_log|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|campaign|viewer|tools|tests)/' \
+never '^launcher/' '^(perception|messages|flight_log|planner|predictor|estimator|executor|simulator|mavlink|semantic_mapper|logger|campaign|viewer|tools|tests)/' \
   'the launcher stands on core, runtime and the summary'
 
 # A process library knows its own folder, core, what channels are called, and for a recorder the messages.
-for process in planner predictor executor simulator mavlink semantic_mapper logger monitor viewer/bridge; do
+for process in planner predictor estimator executor simulator mavlink semantic_mapper logger monitor viewer/bridge; do
   while IFS=$'\t' read -r file header; do
     case $file in "$process"/app/* | mavlink/sim/app/*) continue ;; esac
     case $header in
@@ -116,7 +116,7 @@ never '^planner/(safety|semantics|global_path)/' '^planner/(search|optimization)
 circle=$(awk -F'\t' -v o="$ours" '$2 ~ o' <<<"$includes" | tsort 2>&1 >/dev/null) || breach "includes in a circle: $circle"
 
 # An auditor shares data types with what it audits, no algorithms.
-never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|executor|simulator)' 'audit shares no algorithm'
+never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|estimator|executor|simulator)' 'audit shares no algorithm'
 
 # One definition of a type name per namespace: two would break the one definition rule where both are linked. Counted are
 # definitions at the top of product files, outside unnamed namespaces; a forward declaration is no definition.

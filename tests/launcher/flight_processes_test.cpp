@@ -33,6 +33,13 @@ TEST(FlightProcesses, BeginWithTheViewerThenWhoRecordsAndWhoJudges) {
   EXPECT_EQ(names(flight_processes(options, "r", {}))[0], "tern-viewer");
 }
 
+TEST(FlightProcesses, HaveAnEstimatorIfTheScenarioAsksForIt) {
+  LaunchOptions options = demo();
+  options.estimates = true;
+  EXPECT_EQ(names(flight_processes(options, "r", {})).back(), "tern-estimator");
+  EXPECT_TRUE(flight_processes(options, "r", {}).back().restarted);
+}
+
 TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
   LaunchOptions options = demo();
   options.autopilot = "udp://127.0.0.1:14540";

@@ -138,7 +138,7 @@ TEST(ScenarioFile, LeavesProcessSectionsToTheirProcesses) {
 
 TEST(ScenarioFile, ListsEveryTopLevelKeyThatItKnows) {
   EXPECT_EQ(error_of("plannr: {}\n"),
-            "a.yaml:1: plannr: unknown key (known here: autopilot_sim, executor, logger, mapper, mavlink, name, "
+            "a.yaml:1: plannr: unknown key (known here: autopilot_sim, estimator, executor, logger, mapper, mavlink, name, "
             "planner, predictor, seed, "
             "semantics, simulator, timeout_s, uav, world)");
 }
