@@ -9,8 +9,8 @@
 
 namespace tern {
 
-/// Noise of an IMU as spectral densities. The default was measured in flight: a_n from the growth of the velocity error
-/// of a flying ADIS16448, which vibration raises to ten times the data sheet's. A filter that assumes too much noise
+/// Noise of an IMU as spectral densities. The default was measured in flight: a_n is the growth of the velocity error
+/// of a flying ADIS16448. Vibration raises it to ten times the data sheet's. A filter that assumes too much noise
 /// loses little; one that assumes too little is wrong about its own error.
 struct ImuNoise {
   double accel = 2.8e-2;       ///< a_n, m/s²/√Hz

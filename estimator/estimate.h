@@ -1,4 +1,4 @@
-// What the estimator knows: pose, velocity, biases and their covariance, and what is wrong with its inputs.
+// The estimate: pose, velocity, biases and their covariance; and the troubles of its inputs.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ struct Estimate {
   [[nodiscard]] VectorInW velocity_in_W() const { return T_WO.to_W(velocity); }
 };
 
-/// What may be wrong with the inputs.
+/// A fault of an input.
 enum class Trouble : std::uint8_t {
   ImuNotFinite,      ///< a sample has NaN or infinity: not used
   ImuOrder,          ///< a sample is not newer than the one before it: not used
@@ -90,7 +90,8 @@ struct EstimatorStatus {
   std::array<UTime, kTroubles> last{};          ///< the IMU's time when it happened last; meaningless if count is 0
 };
 
-/// Whether an input was used, or waits for the IMU's samples. If not, it changed nothing and EstimatorStatus says why.
+/// The fate of an input. A used one may wait for the IMU's samples. A refused one has no effect; EstimatorStatus counts
+/// the reason.
 enum class InputOutcome : std::uint8_t { Used, Refused };
 
 }  // namespace tern

@@ -37,8 +37,9 @@ struct ImuRange {
 /// | frame      | a new clone of the pose; features whose track ended, or spans all clones, correct the state |
 /// | fix        | corrects the state by the pose at its time                                               |
 ///
-/// A correction of at most max_step and max_turn moves the pose in O. A larger one changes T_WO and its epoch; position
-/// and yaw in O stay. Velocity, roll and pitch are corrected in both cases.
+/// A correction of at most max_step and max_turn moves the pose in the odometry frame. A larger one changes T_WO and
+/// its epoch, and leaves position and yaw in that frame as they are. Velocity, roll and pitch are corrected in both
+/// cases.
 class Estimator {
  public:
   /// @param rest  where the vehicle rests at the start

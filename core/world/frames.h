@@ -1,8 +1,7 @@
 // The frames of a vehicle that estimates its own pose, as types: mixing them does not compile.
-//
-// W is the world: goals, maps, regions, declared motions, tags and GNSS are in W. O is the odometry frame of one
-// flight: the estimator keeps the vehicle's motion in O free of steps. T_WO maps O to W. Both have z up, so T_WO has
-// four degrees of freedom: a position, and a yaw.
+// The frame W is the world; goals, maps, regions, declared motions, tags and GNSS are given there. The frame O is the
+// odometry frame of one flight, in which the estimator keeps the vehicle's motion free of steps. Both have z up, so the
+// transform T_WO from O to W has four degrees of freedom: a position, and a yaw.
 #pragma once
 
 #include <cmath>

@@ -41,8 +41,8 @@ inline constexpr Duration kEstimatorInputSilent{300'000}, kTroubleShown{5'000'00
 /// Movers of predictions that are older are not masked: their boxes would hide everything.
 inline constexpr Duration kOldestMask{1'000'000};
 
-/// Estimates from messages. What it publishes depends on the messages and their order alone, not on the clock, so a
-/// recorded flight gives the same bytes again.
+/// Estimates from messages. The published bytes depend on the messages and their order alone, and never on the clock.
+/// So a recorded flight gives the same bytes again.
 ///
 /// The vehicle rests at the scenario's start. Only the configured IMU and stereo pair are used; messages of others are
 /// counted as late. HEARTBEAT is WAITING while there is no estimate or an input is silent, and names the newest

@@ -44,8 +44,8 @@ FeatureRows feature_rows(const std::vector<PosedView>& views, const Vec3& x_W, i
 /// @pre m > 3
 void eliminate_feature(FeatureRows& rows);
 
-/// Returns the quantile of χ² with `freedom` ≥ 1 degrees of freedom at a standard normal quantile z (1.645: 95 %), by
-/// Wilson and Hilferty's approximation: within 0.5 % from 3 degrees on.
+/// Returns a quantile of χ² with `freedom` ≥ 1 degrees of freedom. It is given by the standard normal quantile z of the
+/// same probability (1.645: 95 %). Wilson and Hilferty's approximation is within 0.5 % from 3 degrees on.
 double chi_square_quantile(int freedom, double z);
 inline constexpr double kGate95 = 1.6449, kGate9999 = 3.719;
 

@@ -1,4 +1,4 @@
-// What of an input can be used.
+// Checks of the inputs: the usable parts of each.
 #pragma once
 
 #include <vector>

@@ -48,8 +48,8 @@ struct ErrorTransition {
 ///
 ///     θ̇ = −R̂(b̃_g + n_g),   ė_p = e_v − [p̂]× R̂(b̃_g + n_g),   ė_v = [g]× θ − [v̂]× R̂(b̃_g + n_g) − R̂(b̃_a + n_a)
 ///
-/// A depends on the estimate through the biases' columns only, so the unobservable directions of the error stay what
-/// they are (position and yaw in W).
+/// A depends on the estimate in the biases' columns only. The unobservable directions of the error, position and yaw in
+/// W, are therefore the same at all times.
 /// @param half  the state half a step ahead
 ErrorTransition error_transition(const NavState& half, const ImuStep& step, const ImuNoise& noise, double gravity);
 

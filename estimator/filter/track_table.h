@@ -10,8 +10,8 @@
 
 namespace tern {
 
-/// Collects the views of each track, and hands them out once: when the track has ended with at least kLeastViews, or
-/// when it has a view of every clone.
+/// Collects the views of each track, and hands them out once. A track is ready when it has ended with at least
+/// kLeastViews, or has a view of every clone.
 class TrackTable {
  public:
   /// Adds the views of a frame. @pre number is larger than all before

@@ -13,6 +13,7 @@
 namespace tern {
 namespace {
 
+using support::error_of_estimate;
 using support::VioEvent;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -216,7 +217,8 @@ Estimator flown(const std::function<void(VioEvent&)>& change, const Flight& flig
   for (VioEvent event : flight.events(7)) {
     change(event);
     give(estimator, event);
-    if (const auto estimate = estimator.estimate()) EXPECT_TRUE(estimate->covariance.allFinite());
+    const auto estimate = estimator.estimate();
+    EXPECT_TRUE(!estimate || estimate->covariance.allFinite());
   }
   return estimator;
 }
@@ -291,7 +293,7 @@ TEST(EstimatorTroubles, ASaturatedImuWidensTheBound) {
     const bool hit = event.t > 4.5 && event.t < 4.55;
     if (hit) sample.specific_force.x() = 30.0;
     saturated.add(sample, {30.0, 30.0});
-    if (hit) EXPECT_GT(count(saturated, Trouble::ImuSaturated), 0);
+    EXPECT_TRUE(!hit || count(saturated, Trouble::ImuSaturated) > 0);
     if (event.t > 4.55 && event.t < 4.5501) {
       EXPECT_GT(saturated.estimate()->covariance(kVelocityError, kVelocityError),
                 4.0 * plain.estimate()->covariance(kVelocityError, kVelocityError));

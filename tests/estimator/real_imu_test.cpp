@@ -126,7 +126,7 @@ Outcome flown(const Recording& recording, std::uint64_t seed, double dark_s) {
     const double t = (sample.at - from).seconds();
     const NavState truth = recording.at(sample.at);
     estimator.add(tracker.see(truth, landmarks, sample.at, dark_s > 0.0 && std::fmod(t, 20.0) > 20.0 - dark_s));
-    const support::VioError error = error_of_estimate(estimator.estimate().value(), truth);
+    const support::VioError error = support::error_of_estimate(estimator.estimate().value(), truth);
     ++frames;
     covered += error.position_nees < 11.345 ? 1 : 0;
     out.anees += error.nees / 6.0;

@@ -34,7 +34,7 @@ struct VioWorld {
 };
 std::vector<Vec3> landmarks_of(const VioWorld& world, std::uint64_t seed);
 
-/// What flies: the truth follows position and yaw of a guide by the attitude that its acceleration needs.
+/// The path of a flight. The truth follows a guide's velocity and yaw, by the attitude that its acceleration needs.
 struct VioPath {
   std::function<Vec3(double)> velocity;  ///< W, m/s, at a time of the flight, s
   std::function<double(double)> yaw;     ///< rad
