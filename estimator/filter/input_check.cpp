@@ -12,8 +12,9 @@ constexpr double kMaxForce = 1e5;        ///< m/s²: beyond any accelerometer
 constexpr double kMaxTangent = 20.0;     ///< of the angle to the optical axis: 87°
 constexpr double kUnitTolerance = 1e-3;  ///< of a quaternion's norm
 constexpr double kMaxPlace = 1e7;        ///< m
-constexpr double kSwapSigmas = 4.0;      ///< a disparity this far below zero is not noise
-constexpr int kLeastForSwap = 5;
+constexpr double kSwapSigmas = 5.0;      ///< a mean disparity this far below zero is not noise
+constexpr double kSwapShare = 0.75;      ///< of the disparities: a few wrong matches are not swapped cameras
+constexpr int kLeastForSwap = 8;
 
 bool is_sane(const Vec3& x, double limit) { return x.allFinite() && x.cwiseAbs().maxCoeff() <= limit; }
 
@@ -24,15 +25,19 @@ bool has_usable_camera(const FeatureFrame& frame) {
          std::isfinite(frame.baseline_m) && frame.baseline_m > 0.0 && std::isfinite(frame.sigma) && frame.sigma > 0.0;
 }
 
+/// Whether the disparities are negative beyond their noise, as a mean and most of them one by one.
 bool is_swapped(const FeatureFrame& frame) {
-  const double least = -kSwapSigmas * std::sqrt(2.0) * frame.sigma;
   int pairs = 0, negative = 0;
+  double sum = 0.0;
   for (const StereoFeature& feature : frame.features) {
     if (!feature.has_right) continue;
+    const double disparity = feature.left.x() - feature.right.x();
     ++pairs;
-    if (feature.left.x() - feature.right.x() < least) ++negative;
+    sum += disparity;
+    if (disparity < 0.0) ++negative;
   }
-  return pairs >= kLeastForSwap && 2 * negative > pairs;
+  if (pairs < kLeastForSwap || negative < kSwapShare * pairs) return false;
+  return sum / pairs < -kSwapSigmas * frame.sigma * std::sqrt(2.0 / pairs);
 }
 
 }  // namespace
