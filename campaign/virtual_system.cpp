@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "estimator/app/estimator_node.h"
 #include "executor/app/executor_node.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/config_reader.h"
@@ -29,6 +30,7 @@ struct VirtualSystem::Parts {
   Scenario scenario;
   ExecutorConfig executor;
   PredictorConfig predictor;
+  EstimatorNodeConfig estimator;  ///< read if the vehicle flies on an estimate
   MapperConfig mapper;
   VoxelMap map;
   PlannerConfig planner;
@@ -52,6 +54,8 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
   parts_ = std::make_unique<Parts>(document, charge);
   const Scenario& scenario = parts_->scenario;
   const SimulatorConfig config = read_simulator_config(document.root().section("simulator"), scenario.seed);
+  const bool estimates = config.vio.has_value();
+  if (estimates) parts_->estimator = document.root().section("estimator").read<EstimatorNodeConfig>();
   parts_->effective_yaml = document.effective();
   World world = flyable_world_of(scenario, config);
   simulator_ = static_cast<SimulatorNode*>(&runner_.start("tern-simulator", [&](Bus& bus) {
@@ -59,6 +63,7 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
     return std::make_unique<SimulatorNode>(bus, scenario, std::move(world), std::move(vehicle), config);
   }));
   for (const char* process : {"tern-executor", "tern-predictor", "tern-mapper", "tern-planner"}) start(process);
+  if (estimates) start("tern-estimator");
 }
 
 VirtualSystem::~VirtualSystem() = default;
@@ -76,6 +81,9 @@ void VirtualSystem::start(const std::string& process) {
     if (process == "tern-predictor") return std::make_unique<PredictorNode>(bus, parts_->predictor);
     if (process == "tern-mapper") {
       return std::make_unique<MapperNode>(bus, parts_->map, live_setup(parts_->scenario, parts_->mapper));
+    }
+    if (process == "tern-estimator") {
+      return std::make_unique<EstimatorNode>(bus, parts_->estimator, parts_->scenario.uav.start);
     }
     if (process != "tern-planner") throw std::invalid_argument("VirtualSystem: no process " + process);
     PlannerExecution execution;

@@ -33,7 +33,7 @@ class VirtualSystem {
                 Charge charge = Charge::Counts, UTime begin = UTime{1'000'000}, const std::optional<Key>& master = {});
   ~VirtualSystem();
 
-  /// Kills "tern-executor", "tern-predictor", "tern-mapper" or "tern-planner". The next start() makes a new one without
+  /// Kills a process that is not the simulator: "tern-planner", "tern-estimator". The next start() makes a new one without
   /// memory.
   /// @throws std::invalid_argument for other names
   void stop(const std::string& process);
