@@ -30,7 +30,10 @@ std::vector<std::filesystem::path> folders() {
   Dl_info here{};
   if (dladdr(reinterpret_cast<const void*>(&why_no_ipopt), &here) != 0 && here.dli_fname != nullptr) {
     const auto object = std::filesystem::weakly_canonical(here.dli_fname, unreadable);
-    if (!unreadable && object.parent_path() != program.parent_path()) beside.push_back(object.parent_path());
+    // A program that was found by PATH has its bare name here.
+    if (!unreadable && object.is_absolute() && object.parent_path() != program.parent_path()) {
+      beside.push_back(object.parent_path());
+    }
   }
   std::vector<std::filesystem::path> found = beside;
   for (const auto& folder : beside) found.push_back(folder.parent_path() / TERN_LIBRARY_FOLDER / "tern");

@@ -32,6 +32,9 @@ set(by_ipopt ${WORK}/prefix/bin/tern-campaign check --world closing_in --set)
 says(2 "planner.optimization.solver: needs Ipopt. tern-ipopt.so is not installed" ${by_ipopt} planner.optimization.solver=ipopt)
 says(2 "planner.optimization.method: needs Ipopt. tern-ipopt.so is not installed" ${by_ipopt} planner.optimization.method=joint)
 says(0 "goal      can be reached" ${by_ipopt} planner.optimization.method=search_only)
+file(WRITE ${WORK}/away/tern-ipopt.so "a file of that name in the current folder is not Tern's")
+says(2 "tern-ipopt.so is not installed" ${CMAKE_COMMAND} -E env PATH=${WORK}/prefix/bin tern-campaign check
+     --world closing_in --set planner.optimization.solver=ipopt)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${TERN_BUILD} --prefix ${WORK}/prefix --component ipopt
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 says(0 "goal      can be reached" ${by_ipopt} planner.optimization.solver=ipopt)
