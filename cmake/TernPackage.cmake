@@ -64,10 +64,14 @@ tern_component(planner ABOUT "plan(): one certified trajectory for one request"
             tern_planner_safety
   HEADERS planner NOT "planner/app"
   REQUIRES tern-core)
+tern_component(perception ABOUT "obstacles in depth pictures"
+  LIBRARIES tern_perception
+  HEADERS perception
+  REQUIRES tern-core)
 tern_component(predictor ABOUT "tracks of detections, and their predictions"
   LIBRARIES tern_predictor
   HEADERS predictor NOT "predictor/app"
-  REQUIRES tern-core)
+  REQUIRES tern-perception)
 tern_component(replay ABOUT "the inputs of every plan of a recorded flight"
   LIBRARIES tern_replay tern_planner_node tern_runtime
   HEADERS runtime planner/app tools/replay

@@ -19,10 +19,6 @@ namespace {
 
 constexpr const char* kDeclaredInput = "declared motions";
 
-std::string input_name(const ObservationSet& observations) {
-  return fmt::format("obstacle observations of sensor {}", observations.sensor_id);
-}
-
 }  // namespace
 
 PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
@@ -31,8 +27,8 @@ PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
     bus_.subscribe(channels::kDeclaredMotions, [this](const TrackSet& batch) { on_declared(batch); });
   }
   if (config_.model != PredictorModel::Declared) {
-    bus_.subscribe(channels::kObstacleObservations,
-                   [this](const ObservationSet& observations) { on_observations(observations); });
+    bus_.subscribe(channels::kObstacleObservations, [this](const ObservationSet& set) { on_frame({set}); });
+    bus_.subscribe(channels::kObstacleSightings, [this](const SightingSet& set) { on_frame({set}); });
   }
   bus_.subscribe(channels::kUavState, [this](const UavState& state) {
     vehicle_ = state.motion.p;
@@ -50,72 +46,71 @@ void PredictorNode::on_declared(const TrackSet& batch) {
   have_input(kDeclaredInput, declared.made_at);
 }
 
-bool PredictorNode::is_active_sender(const ObservationSet& observations, UTime now) {
+bool PredictorNode::is_active_sender(const SensorFrame& frame, UTime now) {
   std::erase_if(senders_, [now](const auto& entry) { return now - entry.second.at > kSensorSilence; });
-  if (senders_.size() >= kMaxInputs && !senders_.contains(observations.sensor_id)) return true;
-  const std::int64_t epoch_us = observations.header.name.sender_epoch_us;
-  Sender& sender = senders_.try_emplace(observations.sensor_id, Sender{epoch_us, now}).first->second;
+  if (senders_.size() >= kMaxInputs && !senders_.contains(frame.sensor_id())) return true;
+  const std::int64_t epoch_us = frame.header().name.sender_epoch_us;
+  Sender& sender = senders_.try_emplace(frame.sensor_id(), Sender{epoch_us, now}).first->second;
   if (sender.epoch_us == epoch_us) sender.at = now;
   return sender.epoch_us == epoch_us;
 }
 
-void PredictorNode::on_observations(const ObservationSet& observations) {
+void PredictorNode::on_frame(SensorFrame frame) {
   const UTime now = bus_.clock().now();
-  if (!is_active_sender(observations, now)) {
-    bus_.count_late(channels::kObstacleObservations);
+  if (!is_active_sender(frame, now)) {
+    frame.count_late(bus_);
     return watch_.trouble(
         "senders",
-        input_name(observations) + ": a second process sends sets, which are not used (do two sensors have one id?)",
-        now);
+        frame.input_name() + ": a second process sends sets, which are not used (do two sensors have one id?)", now);
   }
-  if (observations.at + kMaxAge < now) {
-    bus_.count_late(channels::kObstacleObservations);
+  if (frame.at() + kMaxAge < now) {
+    frame.count_late(bus_);
     return watch_.trouble("age",
                           fmt::format("{}: measured {:.0f} s ago, not used (at_us is in µs, by the vehicle's clock)",
-                                      input_name(observations), (now - observations.at).seconds()),
+                                      frame.input_name(), (now - frame.at()).seconds()),
                           now);
   }
-  waiting_.push_back({without_explained(observations, declared_), bus_.received()});
+  frame.remove_explained(declared_);
+  waiting_.push_back({std::move(frame), bus_.received()});
 }
 
 void PredictorNode::use_waiting() {
   const UTime begun = bus_.clock().now();
   for (UTime now = begun; !waiting_.empty() && now - begun <= kMaxWorkPerStep; now = bus_.clock().now()) {
-    const Waiting oldest = std::move(waiting_.front());
+    Waiting oldest = std::move(waiting_.front());
     waiting_.pop_front();
-    const ObservationSet& set = oldest.observations;
+    const SensorFrame& frame = oldest.frame;
     const bool is_replaced = std::ranges::any_of(waiting_, [&](const Waiting& other) {
-      return other.observations.sensor_id == set.sensor_id && other.observations.at > set.at;
+      return other.frame.sensor_id() == frame.sensor_id() && other.frame.at() > frame.at();
     });
     if (now - oldest.arrived > kMaxWait && is_replaced) {
-      bus_.count_late(channels::kObstacleObservations);
-      watch_.trouble("overloaded", input_name(set) + ": overloaded, sets are skipped for newer ones", now);
+      frame.count_late(bus_);
+      watch_.trouble("overloaded", frame.input_name() + ": overloaded, sets are skipped for newer ones", now);
     } else {
-      use(set);
+      use(std::move(oldest.frame));
     }
   }
 }
 
-void PredictorNode::use(const ObservationSet& observations) {
+void PredictorNode::use(SensorFrame frame) {
   const UTime now = bus_.clock().now();
-  const std::string input = input_name(observations);
-  ObservationSet usable = observations;
-  if (const std::size_t unusable = remove_unusable(usable); unusable > 0) {
+  const std::string input = frame.input_name();
+  if (const std::size_t unusable = frame.remove_unusable(); unusable > 0) {
     const std::string text = fmt::format("{}: {} detections with a standard deviation above {} m are not used", input,
                                          unusable, kMaxDeviation);
     watch_.trouble("unusable", text, now);
   }
-  const UpdateOutcome outcome = tracker_.update(usable, vehicle_.value_or(usable.sensor_position));
+  const UpdateOutcome outcome = frame.give_to(tracker_, vehicle_);
   if (outcome == UpdateOutcome::Used) {
     if (const std::int32_t left_out = tracker_.left_out(); left_out > 0) {
       watch_.trouble("flood",
                      fmt::format("overloaded: {} new detections, the farthest, are not used; {} sent {} (false ones?)",
-                                 left_out, input, usable.detections.size()),
+                                 left_out, input, frame.size()),
                      now);
     }
-    return have_input(input, observations.at);
+    return have_input(input, frame.at());
   }
-  bus_.count_late(channels::kObstacleObservations);
+  frame.count_late(bus_);
   if (outcome == UpdateOutcome::Repeated) {
     const std::string text = input + ": two sets of one time, the second is not used (do two sensors have one id?)";
     watch_.trouble("repeated", text, now);

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "core/world/observation.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "predictor/app/input_watch.h"
 #include "predictor/app/predictor_config.h"
+#include "predictor/app/sensor_frame.h"
 #include "predictor/models/world_error.h"
 #include "predictor/tracking/tracker.h"
 #include "runtime/batches.h"
@@ -38,6 +38,9 @@ inline constexpr Duration kMaxAge{10'000'000};
 /// - From the first input on, it publishes a complete set of PREDICTIONS each period. An empty world is an empty set.
 /// - made_at is the time of the newest input that the model uses: made_at of a declared set, or the time of an
 ///   observation set. When all inputs stop, made_at stays and α of estimated tracks grows, so the planner sees the age.
+/// - A sensor sends detections (OBSTACLE_OBSERVATIONS) or sightings (OBSTACLE_SIGHTINGS). All rules for observation
+/// sets
+///   hold for both; below, both are frames.
 /// - Observation sets are counted as late and not used if they are too old, repeated, or sent by a second process. The
 ///   bus rejects sets with a time in the future.
 /// - Observation sets wait until step(). One that waited longer than kMaxWait is skipped if a newer one of its sensor
@@ -65,11 +68,11 @@ class PredictorNode final : public Node {
 
  private:
   void on_declared(const TrackSet& batch);
-  void on_observations(const ObservationSet& observations);
+  void on_frame(SensorFrame frame);
   void use_waiting();
-  void use(const ObservationSet& observations);
+  void use(SensorFrame frame);
   /// True if the sender is the active one of its sensor: one process per sensor_id, as on a channel with one sender.
-  bool is_active_sender(const ObservationSet& observations, UTime now);
+  bool is_active_sender(const SensorFrame& frame, UTime now);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
   /// Publishes the bounds of the set's estimated tracks, in its order. @param bounds  ascending by id
@@ -91,7 +94,7 @@ class PredictorNode final : public Node {
   };
   std::map<std::int32_t, Sender> senders_;  // by sensor; silent ones are removed
   struct Waiting {
-    ObservationSet observations;
+    SensorFrame frame;
     UTime arrived;
   };
   std::deque<Waiting> waiting_;  // in the order of their arrival

@@ -68,6 +68,15 @@ ObservationSet without_explained(ObservationSet observations, const std::vector<
   return observations;
 }
 
+SightingSet without_explained(SightingSet sightings, const std::vector<Track>& declared) {
+  const std::vector<Region> regions = regions_at(declared, sightings.at);
+  std::erase_if(sightings.sightings, [&](const Sighting& sighting) {
+    const Vec3 margin = kExplainedSigmas / std::numbers::sqrt2 * sighting.lower_sigma.cwiseMax(sighting.upper_sigma);
+    return is_explained(regions, kNoTrackId, Box(sighting.lower, sighting.upper), margin);
+  });
+  return sightings;
+}
+
 std::vector<Track> merged(std::vector<Track> declared, const std::vector<Track>& estimated, UTime now) {
   const std::vector<Region> regions = regions_at(declared, now);
   std::vector<Track> all;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/world/observation.h"
+#include "core/world/sighting.h"
 #include "core/world/track.h"
 
 namespace tern {
@@ -28,6 +29,9 @@ inline constexpr Duration kExplainedSlack{300'000};
 /// that sticks out of every region is another obstacle, or one larger than declared, and is estimated.
 /// O(detections · tracks).
 ObservationSet without_explained(ObservationSet observations, const std::vector<Track>& declared);
+
+/// The same for sightings: one whose box, grown by kExplainedSigmas of its bounds/√2, lies in a declared region.
+SightingSet without_explained(SightingSet sightings, const std::vector<Track>& declared);
 
 /// Returns the declared tracks together with the estimated tracks that they do not explain at `now`. An estimated track
 /// is explained if its box, without its α, lies within a declared region. An unexplained estimate replaces a declared

@@ -80,7 +80,12 @@ BankFilter::BankFilter(const Vec3& z, const Vec3& r) : lead_(kWidestModel) {
 
 void BankFilter::separate_axes(const Vec3& r) {
   const Vec3 known = r.cwiseMax(kMinVariance);
-  if (!others_.empty() || (known[0] == known[1] && known[1] == known[2])) return;
+  if (known[0] == known[1] && known[1] == known[2]) return;
+  separate_axes();
+}
+
+void BankFilter::separate_axes() {
+  if (!others_.empty()) return;
   others_.assign(covariances_.begin(), covariances_.end());
   others_.insert(others_.end(), covariances_.begin(), covariances_.end());
 }
@@ -96,6 +101,18 @@ void BankFilter::update(const Vec3& z, const Vec3& r) {
     tern::update(z, r, states<double>(*this, j));
   }
   lead_ = idx(std::max_element(evidence_.begin(), evidence_.end()) - evidence_.begin());
+}
+
+void BankFilter::restart_axis(int axis, double z, double r) {
+  separate_axes();
+  const BankFilter anew(Vec3::Constant(z), Vec3::Constant(r));
+  for (std::size_t j = 0; j < kModels; ++j) {
+    const FilterStates<double> to = states<double>(*this, j);
+    const FilterStates<const double> from = states<const double>(anew, j);
+    std::copy_n(from.mean + static_cast<std::ptrdiff_t>(from.order) * axis, to.order,
+                to.mean + static_cast<std::ptrdiff_t>(to.order) * axis);
+    std::copy_n(from.covariance[0], to.order * to.order, to.covariance[idx(axis)]);
+  }
 }
 
 double BankFilter::distance2(const Vec3& z, const Vec3& r) const {

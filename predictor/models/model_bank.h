@@ -42,6 +42,8 @@ class BankFilter {
 
   void predict(const BankStep& step);
   void update(const Vec3& z, const Vec3& r);
+  /// Starts one axis anew from a position z (m) with the variance r (m²); the other axes keep their states.
+  void restart_axis(int axis, double z, double r);
   /// Returns Fit::distance2 by the leading model or by kWidestModel, whichever is less.
   [[nodiscard]] double distance2(const Vec3& z, const Vec3& r) const;
   /// Returns the lesser Fit::neg_log_likelihood() of the leading model and kWidestModel, among those whose distance2 is
@@ -63,6 +65,7 @@ class BankFilter {
   [[nodiscard]] bool is_beyond(std::size_t model, double gate, const Vec3& z, const Vec3& r) const;
   /// Gives each axis its own covariances from the first r on whose entries differ.
   void separate_axes(const Vec3& r);
+  void separate_axes();
 
   std::array<double, kMeans> means_{};              // of all models, one after the other
   std::array<double, kCovariances> covariances_{};  // of the first axis

@@ -25,9 +25,10 @@ inline void update_axes(std::array<AxisFilter, 3>& axes, const Detection& detect
   for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].update(detection.position[i], detection.variance[i]);
 }
 
+inline Vec3 position(const std::array<AxisFilter, 3>& axes) { return {axes[0].x, axes[1].x, axes[2].x}; }
+
 inline Fit fit_of(const std::array<AxisFilter, 3>& axes, const Detection& detection) {
-  return fit(Vec3(axes[0].x, axes[1].x, axes[2].x), Vec3(axes[0].xx, axes[1].xx, axes[2].xx), detection.position,
-             detection.variance);
+  return fit(position(axes), Vec3(axes[0].xx, axes[1].xx, axes[2].xx), detection.position, detection.variance);
 }
 
 inline bool is_seen_at(const std::array<AxisFilter, 3>& place, const ObservationSet& set) {

@@ -7,6 +7,7 @@
 
 #include "core/base/time.h"
 #include "core/base/types.h"
+#include "predictor/faces/face_box.h"
 #include "predictor/models/axis_filter.h"
 #include "predictor/models/learnt_model.h"
 #include "predictor/models/model_bank.h"
@@ -33,6 +34,11 @@ struct TrackedObject {
   /// The place of rest, after the resting hypothesis failed there. A detection beyond kJumpGate of it confirms a start;
   /// after mere noise the track rests there again.
   std::optional<std::array<AxisFilter, 3>> stood;
+  bool is_sighted = false;  ///< a track by sightings: `moving` and `resting` are about the anchor of `faces`
+  FaceBox faces;
+  int misses = 0;                 ///< of a track by sightings: looked for and not found, less those found since, ≥ 0
+  std::array<int, 3> rejected{};  ///< of a track by sightings, per axis: measurements in a row that were outliers
+  bool is_located = true;         ///< the last detection had a position on all axes
 };
 
 }  // namespace tern

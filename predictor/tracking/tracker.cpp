@@ -11,6 +11,7 @@
 
 #include "predictor/tracking/matching.h"
 #include "predictor/tracking/resting_filters.h"
+#include "predictor/tracking/sensor_range.h"
 #include "predictor/tracking/track_bound.h"
 
 namespace tern {
@@ -23,13 +24,9 @@ double size_cost(const Vec3& half, const Detection& detection) {
   return std::min(kMaxSizeCost, (half - detection.half_extents).cwiseAbs2().cwiseQuotient(variance).sum());
 }
 
-bool is_beyond(double range_m, const Vec3& from, const Vec3& centre, const Vec3& half) {
-  return range_m > 0.0 && ((centre - from).cwiseAbs() - half).cwiseMax(0.0).norm() > range_m - kRangeMargin;
-}
-
 bool is_out_of_range(const TrackedObject& object, const ObservationSet& observations) {
-  const Vec3 centre(object.resting[0].x, object.resting[1].x, object.resting[2].x);
-  return is_beyond(observations.range_m, observations.sensor_position, centre, object.half_extents);
+  return is_beyond_range(observations.range_m, observations.sensor_position, position(object.resting),
+                         object.half_extents);
 }
 
 void restart(TrackedObject& object, const Detection& detection, const ObservationSet& from) {
@@ -54,14 +51,20 @@ Tracker::Tracker(const TrackerConfig& config)
 }
 
 UpdateOutcome Tracker::update(const ObservationSet& observations, const Vec3& vehicle) {
+  return insert({observations, nullptr, vehicle, {}});
+}
+
+UpdateOutcome Tracker::insert(Step taken) {
+  const ObservationSet& observations = taken.observations;
   if (!steps_.empty() && observations.at + kReorderWindow < newest()) return UpdateOutcome::TooOld;
   const auto place =
       std::ranges::lower_bound(steps_, key(observations), {}, [](const Step& a) { return key(a.observations); });
   if (place != steps_.end() && key(place->observations) == key(observations)) return UpdateOutcome::Repeated;
-  auto step = steps_.insert(place, Step{observations, vehicle, std::move(spare_)});
+  taken.after = std::move(spare_);
+  auto step = steps_.insert(place, std::move(taken));
   for (; step != steps_.end(); ++step) {
     step->after = step == steps_.begin() ? before_steps_ : (step - 1)->after;
-    advance(step->after, step->observations, step->vehicle);
+    advance(step->after, *step);
   }
   while (steps_.size() > 1 && steps_.front().observations.at + kReorderWindow < newest()) {
     settle(steps_.front());
@@ -71,9 +74,17 @@ UpdateOutcome Tracker::update(const ObservationSet& observations, const Vec3& ve
   return UpdateOutcome::Used;
 }
 
+void Tracker::advance(State& state, const Step& step) const {
+  if (step.sightings) {
+    advance(state, *step.sightings, step.vehicle);
+  } else {
+    advance(state, step.observations, step.vehicle);
+  }
+}
+
 void Tracker::advance(State& state, const ObservationSet& observations, const Vec3& vehicle) const {
   const UTime at = observations.at;
-  std::erase_if(state.views, [&](const SensorView& view) { return view.sensor_id == observations.sensor_id; });
+  std::erase_if(state.views, [&](const SensorRecord& view) { return view.sensor_id == observations.sensor_id; });
   state.views.push_back({observations.sensor_id, at, observations.range_m, observations.sensor_position, 0});
   predict_to(state, at);
   const std::vector<Detection>& detections = observations.detections;
@@ -118,11 +129,13 @@ void Tracker::advance(State& state, const ObservationSet& observations, const Ve
 }
 
 void Tracker::predict_to(State& state, UTime at) const {
-  const double dt = state.objects.empty() ? 0.0 : (at - state.at).seconds();
+  const double dt = state.objects.empty() && state.sighted.empty() ? 0.0 : (at - state.at).seconds();
   const BankStep step = bank_step(dt);
-  for (TrackedObject& object : state.objects) {
-    object.moving.predict(step);
-    for (AxisFilter& axis : object.resting) axis.predict(dt, kRestingSigma * kRestingSigma);
+  for (std::vector<TrackedObject>* objects : {&state.objects, &state.sighted}) {
+    for (TrackedObject& object : *objects) {
+      object.moving.predict(step);
+      for (AxisFilter& axis : object.resting) axis.predict(dt, kRestingSigma * kRestingSigma);
+    }
   }
   state.at = at;
 }
@@ -210,6 +223,7 @@ bool Tracker::may_be_another(const TrackedObject& object, UTime at) const {
 
 bool Tracker::is_stationary(const TrackedObject& object) const {
   if (object.last_seen - object.resting_since < config_.resting_after) return false;
+  if (object.is_sighted && object.faces.positions() < kAxesToRest) return false;
   return std::ranges::all_of(object.resting, [](const AxisFilter& axis) {
     return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));
   });
@@ -246,149 +260,19 @@ void Tracker::settle(const Step& step) {
   const ObservationSet& from = step.observations;
   std::vector<DetectedTrack> detected;
   std::set<std::int64_t> all;
-  for (const TrackedObject& object : step.after.objects) {
-    all.insert(object.id);
-    if (object.last_seen == from.at && object.last_seen_by == from.sensor_id)
-      detected.push_back(detected_track(object));
+  for (const std::vector<TrackedObject>* objects : {&step.after.objects, &step.after.sighted}) {
+    for (const TrackedObject& object : *objects) {
+      all.insert(object.id);
+      if (object.last_seen == from.at && object.last_seen_by == from.sensor_id && object.is_located)
+        detected.push_back(detected_track(object));
+    }
   }
+  if (!step.after.sighted.empty()) std::ranges::sort(detected, {}, &DetectedTrack::id);
   scorer_.update(from.at, detected, all);
 }
 
 PredictionScorer::Assessment Tracker::assessment(const TrackedObject& object) const {
   return scorer_.assessment(detected_track(object), object.last_seen);
-}
-
-bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& existence) const {
-  if (object.confirmed || object.detections > 1) return true;
-  return object.age <= kMissesToHide && existence.real_share() > 1.0 - config_.prediction.confidence;
-}
-
-std::int32_t Tracker::left_out() const {
-  std::int32_t sum = 0;
-  for (const SensorView& view : newest_state().views) {
-    if (view.at + kReorderWindow >= newest()) sum += view.left_out;
-  }
-  return sum;
-}
-
-double Tracker::top_speed() const { return std::max(config_.prediction.max_speed, scorer_.speeds().max_axis_speed()); }
-
-std::pair<Waypoint, Vec3> Tracker::resting_at(const TrackedObject& object, const State& state, UTime from,
-                                              double ahead_s) const {
-  const double to_s = (from - state.at).seconds() + ahead_s;
-  const double unseen_s = (from - object.last_seen).seconds() + ahead_s;
-  Waypoint waypoint;
-  Vec3 sigma, unnoticed;
-  for (int axis = 0; axis < 3; ++axis) {
-    AxisFilter at = object.resting[static_cast<std::size_t>(axis)];
-    unnoticed[axis] = std::abs(object.position[axis] - at.x);
-    at.predict(to_s, kRestingSigma * kRestingSigma);
-    waypoint.centre[axis] = at.x;
-    waypoint.velocity[axis] = at.v;
-    sigma[axis] = std::sqrt(at.xx);
-  }
-  for (std::size_t level = 0; level < waypoint.half.size(); ++level) {
-    const double missed = 1.0 - confidence_at(config_.prediction.confidence, static_cast<int>(level));
-    const double moved_s = std::max(0.0, unseen_s - trusted_rest_s(state.rest, kStartShare * missed));
-    waypoint.half[level] = rest_quantiles_[level] * sigma;
-    if (moved_s > 0.0) waypoint.half[level] += unnoticed + Vec3::Constant(top_speed() * moved_s);
-  }
-  return {waypoint, rest_quantiles_.front() * sigma};
-}
-
-Tracker::Forecast Tracker::at_rest(const TrackedObject& object, const State& state, UTime from) const {
-  Forecast forecast;
-  TrackBound& bound = forecast.bound;
-  for (std::size_t k = 0; k < ends_.size(); ++k) {
-    const auto [waypoint, model] = resting_at(object, state, from, ends_[k].seconds());
-    forecast.waypoints.push_back(waypoint);
-    if (k == bound_at_) bound.model = model.maxCoeff();
-  }
-  bound.kind = MotionKind::Resting;
-  bound.evidence = state.rest.starts;
-  const bool may_have_gone = forecast.waypoints[bound_at_].half.front().maxCoeff() > bound.model;
-  bound.ruled_by = may_have_gone ? BoundRule::Reach : BoundRule::Model;
-  return forecast;
-}
-
-const std::vector<LearntCoefficients>& Tracker::learnt_coefficients(std::size_t group, UTime last_seen,
-                                                                    PredictionInputs& inputs) const {
-  std::vector<LearntCoefficients>& coefficients = inputs.learnt[{group, last_seen}];
-  if (!coefficients.empty()) return coefficients;
-  for (const Duration end : ends_) {
-    coefficients.push_back(scorer_.learnt().at((inputs.from - last_seen + end).seconds(), group));
-  }
-  return coefficients;
-}
-
-Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs& inputs) const {
-  const PredictionScorer::Assessment assessment = this->assessment(object);
-  const bool is_sure = object.confirmed || object.detections > 1;
-  const PerLevel& margins = is_sure ? scorer_.calibration().margins(assessment.of) : inputs.unsure_margins;
-  const double since_s = (inputs.from - object.last_seen).seconds();
-  const bool is_unseen = since_s > kUnseenAfter;
-  Forecast forecast{std::vector<Waypoint>(ends_.size()), {}};
-  for (std::size_t k = 0; k < ends_.size(); ++k) {
-    Waypoint& waypoint = forecast.waypoints[k];
-    const double ahead_s = since_s + ends_[k].seconds();
-    const PerCandidate<double> weights = weights_at(assessment.weights, ahead_s);
-    FilterPrediction learnt;
-    if (weights[kLearnt] > 0.0) {
-      learnt =
-          learnt_prediction(learnt_coefficients(*assessment.group, object.last_seen, inputs)[k], object.learnt_input);
-    }
-    const MixturePrediction mixture = mixture_prediction(object.moving, inputs.rows[k], learnt, weights);
-    waypoint.centre = mixture.centre;
-    waypoint.velocity = mixture.velocity;
-    if (k == bound_at_) forecast.bound.model = model_sigmas_ * mixture.deviation.maxCoeff();
-    for (std::size_t level = 0; level < margins.size(); ++level) {
-      waypoint.half[level] = interval_half_width(mixture.deviation, margins[is_unseen ? 0 : level], ahead_s);
-    }
-  }
-  TrackBound& bound = forecast.bound;
-  bound.kind = assessment.of.motion;
-  bound.evidence = scorer_.calibration().evidence(assessment.of, band_of(since_s + ends_[bound_at_].seconds()));
-  bound.ruled_by = bound.evidence < Calibration::kPriorWeight ? BoundRule::Prior : BoundRule::Measured;
-  return forecast;
-}
-
-bool Tracker::has_left_range(const TrackedObject& object, const std::vector<SensorView>& views, const Waypoint& start) {
-  if (start.half.front().maxCoeff() <= kMaxUnseenAlpha) return false;
-  return std::ranges::any_of(views, [&](const SensorView& view) {
-    return view.sensor_id == object.last_seen_by && object.last_seen < view.at &&
-           is_beyond(view.range_m, view.from, start.centre, object.half_extents);
-  });
-}
-
-std::vector<Track> Tracker::predict(UTime now, std::vector<TrackBound>* why) const {
-  const State& newest = newest_state();
-  const UTime from = std::max(now, newest.at);
-  const BankStep first = bank_step((from - newest.at).seconds());
-  PredictionInputs inputs{from, scorer_.calibration().margins(kNewTrack, newest.existence.real_share()), {}, {}};
-  for (const BankStep& step : steps_ahead_) inputs.rows.push_back(bank_output_rows(step, first));
-  std::vector<Track> tracks;
-  for (const TrackedObject& object : newest.objects) {
-    if (!is_published(object, newest.existence)) continue;
-    const bool is_resting = is_stationary(object);
-    auto [waypoints, bound] = is_resting ? at_rest(object, newest, from) : moving(object, inputs);
-    if (has_left_range(object, newest.views, waypoints.front())) continue;
-    const double seen_speed = is_resting ? 0.0 : waypoints.front().velocity.cwiseAbs().maxCoeff();
-    Track track;
-    track.id = object.id;
-    track.kind = TrackKind::Estimated;
-    track.half_extents = object.half_extents;
-    set_motion(waypoints, ends_, from, std::max(top_speed(), seen_speed), track);
-    if (why != nullptr) {
-      bound.id = object.id;
-      bound.ahead_s = ends_[bound_at_].seconds();
-      bound.measured = waypoints[bound_at_].half.front().maxCoeff();
-      bound.promised = track.alpha[bound_at_ - 1].maxCoeff();
-      if (bound.promised < bound.measured) bound.ruled_by = BoundRule::Reach;
-      why->push_back(bound);
-    }
-    tracks.push_back(std::move(track));
-  }
-  return tracks;
 }
 
 }  // namespace tern

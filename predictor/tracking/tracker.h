@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "core/world/observation.h"
+#include "core/world/sighting.h"
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
+#include "predictor/faces/sighting_matching.h"
 #include "predictor/models/prediction_interval.h"
 #include "predictor/tracking/prediction_scorer.h"
 #include "predictor/tracking/rest_record.h"
@@ -38,9 +41,6 @@ inline constexpr double kRestingLimit = 5.3;
 inline constexpr double kRestingForgetting = 0.1;
 /// A tentative track whose sensor is silent is deleted this long after its last detection: 15 frames at 10 Hz.
 inline constexpr Duration kTentativeUnseen{1'500'000};
-/// A track counts as out of range if its box is farther from the sensor than the range less this margin, m. It allows
-/// for some σ and for the vehicle's motion during a frame.
-inline constexpr double kRangeMargin = 0.5;
 /// A track that has left its sensor's range is published while its α at the start is at most this, m.
 inline constexpr double kMaxUnseenAlpha = 1.0;
 /// A track without detections for longer than this, s, has one α for all levels. The lower levels are calibrated on
@@ -61,6 +61,27 @@ inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
 /// TRACK_BOUNDS reports the bounds at the end of the piece that contains this time ahead.
 inline constexpr Duration kBoundsAhead{1'000'000};
+
+/// Tracks by sightings: a confirmed one is deleted after this many misses in sum, a tentative one after
+/// kMissesOfTentative. A frame of a lidar, which is three times as slow, counts kMissOfLidar.
+inline constexpr int kMissesToDelete = 4, kMissesOfTentative = 2, kMissOfLidar = 2;
+/// A track by sightings that moves and was not seen for longer is deleted, wherever it may be.
+inline constexpr Duration kSightingCoast{3'000'000};
+/// The most tracks by sightings.
+inline constexpr std::size_t kMaxSightedTracks = 400;
+/// The variance, m², of a position along an axis on which a sighting has none.
+inline constexpr double kNoPosition = 900.0;
+/// A face is an outlier if it lies farther from its prediction than this, m, and three standard deviations. It is
+/// another face, or two obstacles look like one. After more than kMostRejected in a row it replaces the known face.
+inline constexpr double kFaceOutlier = 0.15, kFaceOutlierSigmas = 3.0;
+inline constexpr int kMostRejected = 8;
+/// A sighting in the box of a track that was seen in the same frame is a piece of it. The box is grown by this, m.
+inline constexpr double kPieceMargin = 0.2;
+/// A track by sightings is at rest only if it has positions along this many axes. Along another axis a track that rests
+/// is taken to rest as well.
+inline constexpr int kAxesToRest = 2;
+/// Measured faces are published farther out by this many standard deviations.
+inline constexpr double kReachSigmas = 2.0;
 
 struct TrackerConfig {
   PredictionSpec prediction;
@@ -124,6 +145,8 @@ class Tracker {
   UpdateOutcome update(const ObservationSet& observations) {
     return update(observations, observations.sensor_position);
   }
+  /// Takes sightings. They have tracks of their own, since a sighting is part of an obstacle and a detection all of it.
+  UpdateOutcome update(const SightingSet& sightings, const Vec3& vehicle);
 
   /// Returns the tracks predicted from `now` over the horizon, of kind Estimated, ascending by id. They start at
   /// newest() if that is later than `now`.
@@ -137,6 +160,8 @@ class Tracker {
 
   /// All tracks, tentative ones included, ascending by id, at newest().
   [[nodiscard]] const std::vector<TrackedObject>& objects() const { return newest_state().objects; }
+  /// The tracks by sightings, in the same order.
+  [[nodiscard]] const std::vector<TrackedObject>& sighted() const { return newest_state().sighted; }
   /// The record of stationary tracks, at newest().
   [[nodiscard]] const RestRecord& rest() const { return newest_state().rest; }
   /// The time of the newest observation set; 0 if there is none.
@@ -152,7 +177,7 @@ class Tracker {
 
  private:
   /// The newest set of a sensor: its time, and where the sensor was.
-  struct SensorView {
+  struct SensorRecord {
     std::int32_t sensor_id = 0;
     UTime at;
     double range_m = 0.0;  // 0: unlimited
@@ -161,19 +186,36 @@ class Tracker {
   };
   struct State {
     UTime at;
-    std::vector<SensorView> views;  // one per sensor
+    std::vector<SensorRecord> views;  // one per sensor
     std::int64_t next_id = kFirstOwnTrackId;
-    std::vector<TrackedObject> objects;
+    std::vector<TrackedObject> objects, sighted;
     RestRecord rest;
     ExistenceRecord existence;
   };
   struct Step {
-    ObservationSet observations;
+    ObservationSet observations;  // with sightings: their time and sensor alone
+    std::shared_ptr<const SightingSet> sightings;
     Vec3 vehicle;
     State after;
   };
+  UpdateOutcome insert(Step step);
   [[nodiscard]] const State& newest_state() const { return steps_.empty() ? before_steps_ : steps_.back().after; }
   void advance(State& state, const ObservationSet& observations, const Vec3& vehicle) const;
+  void advance(State& state, const Step& step) const;
+  void advance(State& state, const SightingSet& frame, const Vec3& vehicle) const;
+  /// Notes the sensor of a frame. @return its velocity, m/s; 0 if it is not known
+  [[nodiscard]] Vec3 note_frame(State& state, const SightingSet& frame) const;
+  [[nodiscard]] std::vector<PredictedFaces> predicted_faces(const std::vector<TrackedObject>& objects) const;
+  /// Counts a miss of a track that was not found, if it was looked for. @param found  boxes of the tracks that were
+  void look_for(TrackedObject& object, const SensorView& view, const std::vector<Box>& found) const;
+  /// Updates a track with its sighting. @param common  variance of the frame at its place, m²
+  void update_faces(TrackedObject& object, const Sighting& sighting, double common, const ObservationSet& from,
+                    RestRecord& rest) const;
+  [[nodiscard]] TrackedObject start_faces(const Sighting& sighting, double common, const ObservationSet& from,
+                                          std::int64_t id) const;
+  /// The predicted anchor of a track by sightings: by its resting filters if it is stationary.
+  [[nodiscard]] Vec3 anchor(const TrackedObject& object) const;
+  [[nodiscard]] bool is_lost(const TrackedObject& object, UTime at) const;
   void predict_to(State& state, UTime at) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from,
@@ -191,7 +233,10 @@ class Tracker {
   /// True if a detection of this track may be another obstacle (kMissesToRestart).
   [[nodiscard]] bool may_be_another(const TrackedObject& object, UTime at) const;
   /// True if the track has left its sensor's range and its start is no longer known to kMaxUnseenAlpha.
-  [[nodiscard]] static bool has_left_range(const TrackedObject& object, const std::vector<SensorView>& views,
+  [[nodiscard]] static bool has_left_range(const TrackedObject& object, const std::vector<SensorRecord>& views,
+                                           const Waypoint& start);
+  /// True if a track by sightings is out of sight, and its start is known no better than kMaxUnseenAlpha or its size.
+  [[nodiscard]] static bool is_handed_over(const TrackedObject& object, const Box& box, UTime from,
                                            const Waypoint& start);
   /// Passes a step that can no longer change on to the scorer.
   void settle(const Step& step);
@@ -217,6 +262,9 @@ class Tracker {
   [[nodiscard]] const std::vector<LearntCoefficients>& learnt_coefficients(std::size_t group, UTime last_seen,
                                                                            PredictionInputs& inputs) const;
   [[nodiscard]] Forecast moving(const TrackedObject& object, PredictionInputs& inputs) const;
+  /// Appends the track of an object, unless it is not to be published. @param why  may be null
+  void predict(const TrackedObject& object, PredictionInputs& inputs, std::vector<Track>& tracks,
+               std::vector<TrackBound>* why) const;
 
   TrackerConfig config_;
   std::vector<Duration> ends_;         // piece_ends()

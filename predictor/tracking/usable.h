@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/world/observation.h"
+#include "core/world/sighting.h"
 
 namespace tern {
 
@@ -16,6 +17,13 @@ inline constexpr double kMaxDeviation = 30.0;
 inline std::size_t remove_unusable(ObservationSet& set) {
   return std::erase_if(set.detections,
                        [](const Detection& d) { return !(d.variance.maxCoeff() <= kMaxDeviation * kMaxDeviation); });
+}
+
+/// The same for sightings, by their measured bounds.
+inline std::size_t remove_unusable(SightingSet& set) {
+  return std::erase_if(set.sightings, [](const Sighting& s) {
+    return !(s.lower_sigma.maxCoeff() <= kMaxDeviation && s.upper_sigma.maxCoeff() <= kMaxDeviation);
+  });
 }
 
 }  // namespace tern

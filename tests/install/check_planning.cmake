@@ -1,7 +1,7 @@
 # Installs the components into WORK/prefix. Builds CONSUMER against them by find_package() and by pkg-config, and runs both
 # on LOG. A project that plans without logs needs no package of pkg-config, nor Ipopt.
 file(REMOVE_RECURSE ${WORK})
-foreach(component core messages planner predictor replay)
+foreach(component core messages perception planner predictor replay)
   execute_process(COMMAND ${CMAKE_COMMAND} --install ${TERN_BUILD} --prefix ${WORK}/prefix --component ${component}
                   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

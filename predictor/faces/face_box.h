@@ -1,0 +1,90 @@
+// The box of one track, learnt face by face. "Faces and extents" in docs/prediction.md.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/base/types.h"
+#include "core/world/sighting.h"
+
+namespace tern {
+
+/// Two measured bounds of one axis agree if they do to this and three standard deviations, m: a pixel at 10 m.
+inline constexpr double kSizeTolerance = 0.15;
+/// A known size follows measured ones by at least this share of the difference. If a measured size is larger and
+/// disagrees, it is taken at once.
+inline constexpr double kSizeFollows = 0.05;
+
+/// True for a bound that is a measured end of the obstacle.
+constexpr bool is_end(BoundSight sight) { return sight == BoundSight::Face || sight == BoundSight::Whole; }
+
+/// A sliver is a sighting of fewer points than this, some of them beside a cut or hidden part. On so few points all
+/// faces look alike, so its bounds are taken as hidden.
+inline constexpr int kSliverPoints = 16;
+/// Returns the sighting; that of a sliver without ends.
+Sighting without_false_ends(Sighting sighting);
+
+/// One face of a box: its distance outwards from the anchor.
+struct FaceReach {
+  double reach = 0.0;  ///< m; before the first measurement: as far as the obstacle was seen
+  double sigma = 0.0;  ///< of a measured reach, m
+  int measured = 0;    ///< measurements; 0: the obstacle ends somewhere beyond `reach`
+};
+inline constexpr std::size_t kLowerFace = 0, kUpperFace = 1;
+
+/// A position per axis with its variance; none along an axis without a measured end.
+struct AnchorMeasurement {
+  std::array<bool, 3> has{};
+  Vec3 position = Vec3::Zero();  ///< W, m
+  Vec3 variance = Vec3::Zero();  ///< m²
+};
+
+/// An axis-aligned box that moves with its *anchor*, a point of the obstacle. A filter estimates the anchor; this class
+/// keeps the distances of the six faces from it.
+///
+/// - A measured end of a face with a known reach measures the anchor: bound − reach for the upper face.
+/// - A reach changes by measured *sizes* alone, where both ends of an axis are seen. So errors of the filter stay out
+/// of
+///   the extent, and changes of the visible part stay out of the velocity.
+/// - A face that was never measured lies at least as far out as the obstacle was seen. completed() puts it where the
+///   other axes suggest.
+class FaceBox {
+ public:
+  FaceBox() = default;
+  /// @param anchor  receives the middle of the visible part
+  FaceBox(const Sighting& sighting, Vec3& anchor);
+
+  /// Returns the largest distance of a measured end from its known face, or of another bound beyond it, m.
+  /// @param unknown  the least result if no end can be compared, m
+  [[nodiscard]] double mismatch(const Vec3& anchor, const Sighting& sighting, double unknown) const;
+  /// Returns the anchor by the measured ends whose reach is known. Where the two ends of an axis disagree with the
+  /// known size, the one nearer to its prediction counts.
+  [[nodiscard]] AnchorMeasurement measure(const Vec3& anchor, const Sighting& sighting) const;
+  /// Learns reaches. @param anchor  after its update; @param axes  those that may be learnt
+  void learn(const Vec3& anchor, const Sighting& sighting, const std::array<bool, 3>& axes = {true, true, true});
+
+  /// Learns the faces of one axis anew, so that the anchor stays.
+  void relearn(int axis, const Vec3& anchor, const Sighting& sighting);
+
+  /// True if a face of the axis was ever measured. Otherwise position and velocity along the axis are unknown.
+  [[nodiscard]] bool has_position(int axis) const;
+  /// The number of axes with a position.
+  [[nodiscard]] int positions() const {
+    return (has_position(0) ? 1 : 0) + (has_position(1) ? 1 : 0) + (has_position(2) ? 1 : 0);
+  }
+  /// Returns the box about an anchor with its unseen rest completed. An axis is at least as long as the shorter of the
+  /// other two that is measured at both ends, or else that was seen.
+  /// @param sigmas  known faces lie farther out by this many standard deviations of their reach
+  [[nodiscard]] Box completed(const Vec3& anchor, double sigmas = 0.0) const;
+
+ private:
+  using Axis = std::array<FaceReach, 2>;
+  void learn_axis(Axis& axis, double anchor, const std::array<double, 2>& bounds, const std::array<double, 2>& sigmas,
+                  const std::array<BoundSight, 2>& sights) const;
+  [[nodiscard]] double least_size(int axis) const;
+
+  std::array<Axis, 3> axes_;
+  std::array<bool, 3> has_depth_{};  // an axis of which more than the near face was seen
+};
+
+}  // namespace tern

@@ -1,0 +1,217 @@
+// Tracker's tracks by sightings. "Faces and extents" in docs/prediction.md.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "predictor/faces/frame_error.h"
+#include "predictor/faces/looked_for.h"
+#include "predictor/faces/sighting_matching.h"
+#include "predictor/tracking/resting_filters.h"
+#include "predictor/tracking/track_bound.h"
+#include "predictor/tracking/tracker.h"
+
+namespace tern {
+namespace {
+
+// A sensor's velocity is taken from its newest two frames if they are at most this far apart.
+constexpr Duration kVelocitySpan{500'000};
+
+Vec3 middle(const Sighting& sighting) { return 0.5 * (sighting.lower + sighting.upper); }
+
+// What of a frame the filters' code needs.
+ObservationSet without_detections(const SightingSet& frame) {
+  ObservationSet set;
+  set.header = frame.header;
+  set.at = frame.at;
+  set.sensor_id = frame.sensor_id;
+  set.range_m = frame.view.range_m;
+  set.sensor_position = frame.view.sensor_position;
+  return set;
+}
+
+bool contains(const std::vector<Box>& boxes, const Box& piece) {
+  return std::ranges::any_of(boxes, [&](const Box& box) { return box.contains(piece); });
+}
+
+// The variance of an anchor, m². Axes share their covariances, and so most of the work, while their variances are
+// equal: those that are nearly so are taken as equal.
+Vec3 variance_of(const AnchorMeasurement& measured, double common) {
+  constexpr double kNearlyEqual = 2.0;
+  double least = kNoPosition, most = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!measured.has[idx(axis)]) continue;
+    least = std::min(least, common + measured.variance[axis]);
+    most = std::max(most, common + measured.variance[axis]);
+  }
+  Vec3 variance = Vec3::Constant(kNoPosition);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (measured.has[idx(axis)]) variance[axis] = most < kNearlyEqual * least ? most : common + measured.variance[axis];
+  }
+  return variance;
+}
+
+// Removes the outliers of a measurement (kFaceOutlier). @return per axis: whether it had none
+std::array<bool, 3> reject_outliers(TrackedObject& object, const Vec3& predicted, const Sighting& sighting,
+                                    AnchorMeasurement& measured) {
+  const Vec3 variance = object.moving.lead().variance();
+  std::array<bool, 3> is_sound{true, true, true};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!measured.has[idx(axis)]) continue;
+    const double sigma = std::sqrt(variance[axis] + measured.variance[axis]);
+    const double away = std::abs(measured.position[axis] - predicted[axis]);
+    is_sound[idx(axis)] = away <= kFaceOutlier + kFaceOutlierSigmas * sigma;
+    measured.has[idx(axis)] = is_sound[idx(axis)];
+    int& rejected = object.rejected[idx(axis)];
+    rejected = is_sound[idx(axis)] ? 0 : rejected + 1;
+    if (rejected <= kMostRejected) continue;
+    object.faces.relearn(axis, predicted, sighting);
+    rejected = 0;
+  }
+  return is_sound;
+}
+
+}  // namespace
+
+UpdateOutcome Tracker::update(const SightingSet& sightings, const Vec3& vehicle) {
+  auto frame = std::make_shared<SightingSet>(sightings);
+  std::ranges::transform(frame->sightings, frame->sightings.begin(), without_false_ends);
+  return insert({without_detections(sightings), std::move(frame), vehicle, {}});
+}
+
+Vec3 Tracker::anchor(const TrackedObject& object) const {
+  return is_stationary(object) ? position(object.resting) : object.moving.lead().position();
+}
+
+TrackedObject Tracker::start_faces(const Sighting& sighting, double common, const ObservationSet& from,
+                                   std::int64_t id) const {
+  Vec3 anchor;
+  const FaceBox faces(sighting, anchor);
+  // The anchor is by definition here; only the frame's own error is unknown.
+  TrackedObject object = start_track({anchor, {}, Vec3::Constant(common), kNoTrackId}, from, id);
+  object.is_sighted = true;
+  object.faces = faces;
+  object.half_extents = 0.5 * faces.completed(anchor).sizes();
+  for (int axis = 0; axis < 3; ++axis) object.is_located = object.is_located && faces.has_position(axis);
+  return object;
+}
+
+void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, double common, const ObservationSet& from,
+                           RestRecord& rest) const {
+  const Vec3 predicted = anchor(object);
+  AnchorMeasurement measured = object.faces.measure(predicted, sighting);
+  const std::array<bool, 3> is_sound = reject_outliers(object, predicted, sighting, measured);
+  Detection detection{predicted, {}, variance_of(measured, common), kNoTrackId};
+  object.is_located = true;
+  const auto forget = [&](int axis) {
+    object.moving.restart_axis(axis, predicted[axis], common);
+    object.resting[idx(axis)] = {predicted[axis], 0.0, common, 0.0, kRestingSpeed * kRestingSpeed};
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (measured.has[idx(axis)]) {
+      detection.position[axis] = measured.position[axis];
+      continue;
+    }
+    object.is_located = false;
+    if (!object.faces.has_position(axis)) forget(axis);
+  }
+  detection.half_extents = object.half_extents;
+  update_track(object, detection, from, rest);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (object.born == from.at && !measured.has[idx(axis)]) forget(axis);  // it was restarted, at no place
+  }
+  const Vec3 now = object.moving.lead().position();
+  object.faces.learn(now, sighting, is_sound);
+  object.half_extents = 0.5 * object.faces.completed(now).sizes();
+}
+
+bool Tracker::is_lost(const TrackedObject& object, UTime at) const {
+  const Duration unseen = at - object.last_seen;
+  if (!object.confirmed) return object.misses >= kMissesOfTentative || unseen > kTentativeUnseen;
+  if (object.misses >= kMissesToDelete || unseen > config_.remember_rest) return true;
+  return unseen > kSightingCoast && !is_stationary(object);
+}
+
+Vec3 Tracker::note_frame(State& state, const SightingSet& frame) const {
+  Vec3 sensor_velocity = Vec3::Zero();
+  std::erase_if(state.views, [&](const SensorRecord& record) {
+    if (record.sensor_id != frame.sensor_id) return false;
+    const Duration since = frame.at - record.at;
+    if (since > Duration{} && since < kVelocitySpan)
+      sensor_velocity = (frame.view.sensor_position - record.from) / since.seconds();
+    return true;
+  });
+  state.views.push_back({frame.sensor_id, frame.at, frame.view.range_m, frame.view.sensor_position, 0});
+  return sensor_velocity;
+}
+
+std::vector<PredictedFaces> Tracker::predicted_faces(const std::vector<TrackedObject>& objects) const {
+  std::vector<PredictedFaces> predicted;
+  predicted.reserve(objects.size());
+  for (const TrackedObject& object : objects) {
+    const Vec3 variance = object.moving.lead().variance();
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (object.faces.has_position(axis) && !is_stationary(object)) largest = std::max(largest, variance[axis]);
+    }
+    predicted.push_back({&object.faces, anchor(object), face_gate(std::sqrt(largest))});
+  }
+  return predicted;
+}
+
+void Tracker::look_for(TrackedObject& object, const SensorView& view, const std::vector<Box>& found) const {
+  const Box box = object.faces.completed(anchor(object));
+  if (!is_looked_through(view, box) && !contains(found, box)) return;
+  ++object.age;
+  object.hits <<= 1;
+  object.misses += view.kind == ViewKind::Spherical ? kMissOfLidar : 1;
+}
+
+void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicle) const {
+  const ObservationSet from = without_detections(frame);
+  const Vec3 sensor_velocity = note_frame(state, frame);
+  const auto variance_at = [&](const Vec3& p, const Vec3& velocity) {
+    return frame_variance(p - frame.view.sensor_position, velocity - sensor_velocity);
+  };
+  predict_to(state, frame.at);
+  const std::vector<int> sighting_of = match_sightings(predicted_faces(state.sighted), frame.sightings);
+  std::vector<bool> is_taken(frame.sightings.size(), false);
+  std::vector<Box> found;  // boxes of the tracks that were found
+  for (std::size_t o = 0; o < state.sighted.size(); ++o) {
+    if (sighting_of[o] == kNoSighting) continue;
+    TrackedObject& object = state.sighted[o];
+    const Sighting& sighting = frame.sightings[static_cast<std::size_t>(sighting_of[o])];
+    is_taken[static_cast<std::size_t>(sighting_of[o])] = true;
+    if (object.detections == 1 && !object.confirmed) ++state.existence.again;
+    ++object.age;
+    object.hits <<= 1;
+    object.misses = std::max(0, object.misses - 1);
+    update_faces(object, sighting, variance_at(middle(sighting), object.moving.lead().velocity()), from, state.rest);
+    object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
+    found.push_back(grown(object.faces.completed(anchor(object)), Vec3::Constant(kPieceMargin)));
+  }
+  for (std::size_t o = 0; o < state.sighted.size(); ++o) {
+    if (sighting_of[o] == kNoSighting) look_for(state.sighted[o], frame.view, found);
+  }
+  std::erase_if(state.sighted, [&](const TrackedObject& object) {
+    const bool is_dead = is_lost(object, frame.at);
+    if (is_dead && object.misses > 0 && object.detections == 1 && !object.confirmed) ++state.existence.never;
+    return is_dead;
+  });
+  for (std::size_t s = 0; s < frame.sightings.size(); ++s) {
+    const Sighting& sighting = frame.sightings[s];
+    if (is_taken[s] || contains(found, Box(sighting.lower, sighting.upper))) continue;
+    const double common = variance_at(middle(sighting), Vec3::Zero());
+    state.sighted.push_back(start_faces(sighting, common, from, state.next_id++));
+  }
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  state.views.back().left_out =
+      frame.left_out + bound_tracks(state.sighted, kFirstOwnTrackId, kLast, kMaxSightedTracks, vehicle, frame.at);
+}
+
+}  // namespace tern
