@@ -19,6 +19,8 @@ if(TERN_IPOPT)
   pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
 endif()
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+# Optional: for tern-ros2 alone.
+pkg_check_modules(CYCLONEDDS IMPORTED_TARGET CycloneDDS)
 
 if(TERN_BUILD_TESTS)
   find_package(GTest REQUIRED)

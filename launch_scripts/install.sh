@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # install.sh [LIST...]: installs the missing Debian packages of the lists (default packages.txt), as root or with sudo.
-# A line "PACKAGE unless COMMAND" needs the package only if COMMAND is missing.
+# A line "PACKAGE unless COMMAND" needs the package only if COMMAND is missing; "PACKAGE in RELEASE" only on that Debian.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
@@ -11,8 +11,10 @@ for list; do
 done
 [[ $# -gt 0 ]] || set -- "$TERN_ROOT/launch_scripts/packages.txt"
 missing=()
-while read -r package condition command; do
-  [[ $condition != unless ]] || ! command -v "$command" >/dev/null || continue
+release=$(. /etc/os-release && echo "${VERSION_ID:-}")
+while read -r package condition value; do
+  [[ $condition != unless ]] || ! command -v "$value" >/dev/null || continue
+  [[ $condition != in || $value == "$release" ]] || continue
   status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) || status=''
   [[ $status == 'install ok installed' ]] || missing+=("$package")
 done < <(grep -hE '^[a-z0-9]' "$@")

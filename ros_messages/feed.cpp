@@ -1,7 +1,10 @@
 #include "ros_messages/feed.h"
 
 #include <algorithm>
+#include <concepts>
 #include <stdexcept>
+
+#include "ros_messages/markers.h"
 
 namespace tern::ros {
 namespace {
@@ -20,37 +23,46 @@ const Value* find(const std::deque<std::pair<Key, Value>>& kept, const Key& key)
   return found == kept.rend() ? nullptr : &found->second;
 }
 
-const FeedTopic& topic_named(std::string_view name) {
-  const auto& all = feed_topics();
+const FeedTopic& topic_named(std::string_view name, Drawings drawings) {
+  const auto& all = feed_topics(drawings);
   const auto found = std::find_if(all.begin(), all.end(), [&](const FeedTopic& topic) { return topic.name == name; });
   if (found == all.end()) throw std::out_of_range("no topic " + std::string(name));
   return *found;
 }
 
+std::vector<FeedTopic> topics_with(const RosType& drawing) {
+  using namespace topics;
+  return {{kOdom, &ros_type<Odometry>()},
+          {kTf, &ros_type<TFMessage>()},
+          {kDetections, &ros_type<Detection3DArray>()},
+          {kGoalPose, &ros_type<PoseStamped>(), true},
+          {kPlan, &ros_type<Path>()},
+          {kTrajectory, &ros_type<MultiDOFJointTrajectory>()},
+          {kSetpoint, &ros_type<MultiDOFJointTrajectory>()},
+          {kMap, &ros_type<PointCloud2>(), true},
+          {kObstacles, &drawing},
+          {kCommittedLine, &drawing},
+          {kPlanLine, &drawing},
+          {kHulls, &drawing},
+          {kPlanes, &drawing},
+          {kRegions, &drawing, true}};
+}
+
 }  // namespace
 
-const std::vector<FeedTopic>& feed_topics() {
-  using namespace topics;
-  static const std::vector<FeedTopic> kTopics = {{kOdom, &ros_type<Odometry>()},
-                                                 {kTf, &ros_type<TFMessage>()},
-                                                 {kDetections, &ros_type<Detection3DArray>()},
-                                                 {kGoalPose, &ros_type<PoseStamped>(), true},
-                                                 {kPlan, &ros_type<Path>()},
-                                                 {kTrajectory, &ros_type<MultiDOFJointTrajectory>()},
-                                                 {kSetpoint, &ros_type<MultiDOFJointTrajectory>()},
-                                                 {kMap, &ros_type<PointCloud2>(), true},
-                                                 {kObstacles, &ros_type<SceneUpdate>()},
-                                                 {kCommittedLine, &ros_type<SceneUpdate>()},
-                                                 {kPlanLine, &ros_type<SceneUpdate>()},
-                                                 {kHulls, &ros_type<SceneUpdate>()},
-                                                 {kPlanes, &ros_type<SceneUpdate>()},
-                                                 {kRegions, &ros_type<SceneUpdate>(), true}};
-  return kTopics;
+const std::vector<FeedTopic>& feed_topics(Drawings drawings) {
+  static const std::vector<FeedTopic> kScenes = topics_with(ros_type<SceneUpdate>());
+  static const std::vector<FeedTopic> kMarkers = topics_with(ros_type<MarkerArray>());
+  return drawings == Drawings::Scenes ? kScenes : kMarkers;
 }
 
 template <Message T>
 void Feed::write(std::string_view topic, const T& message) {
-  write_(topic_named(topic), encode_cdr(message));
+  const FeedTopic& named = topic_named(topic, drawings_);
+  if constexpr (std::same_as<T, SceneUpdate>) {
+    if (drawings_ == Drawings::Markers) return write_(named, encode_cdr(markers_of(message)));
+  }
+  write_(named, encode_cdr(message));
 }
 
 void Feed::receive(const UavState& state) {

@@ -1,4 +1,4 @@
-// Turns the messages of a flight into ROS messages, topic by topic: for files and for Foxglove.
+// Turns the messages of a flight into ROS messages, topic by topic: for files, Foxglove and DDS.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,14 @@ inline constexpr char kOdom[] = "/odom", kTf[] = "/tf", kDetections[] = "/detect
                       kRegions[] = "/tern/regions";
 }  // namespace topics
 
+/// How drawings are written.
+enum class Drawings : std::uint8_t {
+  Scenes,   ///< foxglove_msgs/msg/SceneUpdate
+  Markers,  ///< visualization_msgs/msg/MarkerArray, for RViz
+};
+
 /// Returns all topics of the feed.
-const std::vector<FeedTopic>& feed_topics();
+const std::vector<FeedTopic>& feed_topics(Drawings drawings = Drawings::Scenes);
 
 /// Takes complete messages (joined batches, whole maps), and writes CDR.
 class Feed {
@@ -43,8 +49,9 @@ class Feed {
   using Wanted = std::function<bool(std::string_view topic)>;
 
   explicit Feed(
-      Write write, Wanted wanted = [](std::string_view) { return true; }, Frames frames = {})
-      : write_(std::move(write)), wanted_(std::move(wanted)), frames_(std::move(frames)) {}
+      Write write, Wanted wanted = [](std::string_view) { return true; }, Frames frames = {},
+      Drawings drawings = Drawings::Scenes)
+      : write_(std::move(write)), wanted_(std::move(wanted)), frames_(std::move(frames)), drawings_(drawings) {}
 
   void receive(const UavState& state);
   void receive_setpoint(const UavState& setpoint);
@@ -68,6 +75,7 @@ class Feed {
   Write write_;
   Wanted wanted_;
   Frames frames_;
+  Drawings drawings_;
   Vec3 position_sigma_ = Vec3::Zero();
   std::deque<std::pair<MessageName, UTime>> requests_;                             ///< t_s by name, the newest last
   std::deque<std::pair<std::pair<std::int64_t, std::int64_t>, TrackSet>> tracks_;  ///< by sender epoch and set

@@ -29,6 +29,11 @@ struct Span {
     visit("nanosec", m.nanosec);
   }
 };
+struct Bool {
+  static constexpr const char* kName = "std_msgs/msg/Bool";
+  bool data = false;
+  static void fields(auto& m, auto& visit) { visit("data", m.data); }
+};
 /// When and in which frame.
 struct Head {
   static constexpr const char* kName = "std_msgs/msg/Header";

@@ -51,7 +51,8 @@ TEST(KeyRing, OnlyWhoHearsAPlanHoldsItsKey) {
     const KeyRing ring = KeyRing::derive(counting_key(), entry.process);
     const bool hears = entry.process == "tern-planner" || entry.process == "tern-executor" ||
                        entry.process == "tern-simulator" || entry.process == "tern-mavlink" ||
-                       entry.process == "tern-monitor" || entry.process == "tern-viewer";
+                       entry.process == "tern-monitor" || entry.process == "tern-viewer" ||
+                       entry.process == "tern-ros2";
     EXPECT_EQ(ring.find(channels::kPlan.name, Role::Planner) != nullptr, hears) << entry.process;
   }
 }

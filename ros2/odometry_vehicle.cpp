@@ -1,0 +1,82 @@
+#include "ros2/odometry_vehicle.h"
+
+#include <fmt/format.h>
+
+namespace tern::ros2 {
+namespace {
+
+/// Returns the least-squares slope of velocity over time; 0 for less than three readings.
+Vec3 slope_of(const std::deque<OdometryReading>& readings) {
+  constexpr std::size_t kFewest = 3;
+  if (readings.size() < kFewest) return Vec3::Zero();
+  const auto n = static_cast<double>(readings.size());
+  const auto seconds = [&](const OdometryReading& r) { return (r.at - readings.back().at).seconds(); };
+  double mean_t = 0.0, squares = 0.0;
+  Vec3 mean_v = Vec3::Zero(), products = Vec3::Zero();
+  for (const OdometryReading& r : readings) {
+    mean_t += seconds(r) / n;
+    mean_v += r.velocity / n;
+  }
+  for (const OdometryReading& r : readings) {
+    const double t = seconds(r) - mean_t;
+    squares += t * t;
+    products += t * (r.velocity - mean_v);
+  }
+  return products / squares;  // stamps differ
+}
+
+}  // namespace
+
+Result<UavState> OdometryVehicle::receive(const OdometryReading& reading) {
+  if (!readings_.empty()) {
+    const OdometryReading& last = readings_.back();
+    const double later = (reading.at - last.at).seconds();
+    if (later <= 0.0) return fail(fmt::format("its stamp is {:.3f} s before that of the last one", -later));
+    const bool is_jump = (last.position + later * last.velocity - reading.position).norm() > kJump;
+    if (is_jump && later < kOldestOdometry.seconds()) {
+      ++resets_;
+      readings_.clear();
+    }
+  }
+  readings_.push_back(reading);
+  while (reading.at - readings_.front().at > kSlope) readings_.pop_front();
+  UavState state;
+  state.at = reading.at;
+  state.motion.p = reading.position;
+  state.motion.v = reading.velocity;
+  state.motion.a = slope_of(readings_);
+  state.yaw = reading.yaw;
+  return state;
+}
+
+void OdometryVehicle::receive_following(bool following, UTime now) {
+  told_ = following ? std::optional(now) : std::nullopt;
+}
+
+VehicleStatus OdometryVehicle::status(UTime now) const {
+  VehicleStatus status;
+  status.at = now;
+  status.mode = "ROS 2";
+  status.resets = resets_;
+  if (readings_.empty()) {
+    status.why_not = "no odometry has come";
+    status.estimator = EstimatorHealth::Lost;
+    return status;
+  }
+  status.position_sigma = readings_.back().position_sigma;
+  const Duration age = now - readings_.back().at;
+  if (age > kOldestOdometry) {
+    status.why_not = fmt::format("the newest odometry is {:.1f} s old", age.seconds());
+    status.estimator = EstimatorHealth::Lost;
+  } else if (asks_ && (!told_ || now - *told_ > kOldestWord)) {
+    status.why_not = "/following does not say true";
+  }
+  status.armed = status.following = status.why_not.empty();
+  return status;
+}
+
+std::optional<Vec3> OdometryVehicle::position() const {
+  return readings_.empty() ? std::nullopt : std::optional(readings_.back().position);
+}
+
+}  // namespace tern::ros2

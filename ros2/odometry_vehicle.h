@@ -1,0 +1,40 @@
+// A vehicle that reports itself by odometry: UAV_STATE and VEHICLE_STATUS.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "core/base/result.h"
+#include "core/world/vehicle.h"
+#include "core/world/vehicle_status.h"
+#include "ros2/intake.h"
+
+namespace tern::ros2 {
+
+/// Turns odometry into states. Odometry has no acceleration: it is the slope of the velocities of the last kSlope, by
+/// least squares, and 0 until there are three.
+///
+/// ROS has no message that says whether a vehicle follows its setpoints. It follows while its odometry is at most
+/// kOldestOdometry old; if `asks` is true, it must also have been told so by std_msgs/Bool within kOldestWord.
+class OdometryVehicle {
+ public:
+  static constexpr Duration kSlope{100'000}, kOldestWord{1'000'000};
+  /// A position this far from the one that the previous velocity leads to is a jump: an estimator that was reset, m.
+  static constexpr double kJump = 0.3;
+
+  explicit OdometryVehicle(bool asks) : asks_(asks) {}
+  /// @return an Error if the reading is not newer than the one before
+  Result<UavState> receive(const OdometryReading& reading);
+  /// Takes what /following says.
+  void receive_following(bool following, UTime now);
+  [[nodiscard]] VehicleStatus status(UTime now) const;
+  [[nodiscard]] std::optional<Vec3> position() const;
+
+ private:
+  bool asks_;
+  std::deque<OdometryReading> readings_;  ///< of the last kSlope, the newest last
+  std::optional<UTime> told_;             ///< when /following last said true
+  std::int64_t resets_ = 0;
+};
+
+}  // namespace tern::ros2

@@ -1,0 +1,295 @@
+// ROS's messages as Tern's values: there and back, by brute force, and by hostile bytes.
+#include "ros2/intake.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "messages/codec.h"
+#include "ros_messages/cdr.h"
+#include "tests/ros2/made_up.h"
+#include "tests/support/effort.h"
+
+namespace tern::ros2 {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr UTime kNow{1'700'000'000'000'000};
+
+class Intake : public ::testing::Test {
+ protected:
+  template <class T>
+  std::string why_not(const T& message) {
+    const auto taken = read(message, context);
+    return taken ? "it is used" : taken.error().why;
+  }
+
+  std::mt19937_64 rng{3};
+  TransformBuffer transforms;
+  IntakeContext context{transforms, kNow, Vec3(1.0, 2.0, 3.0)};
+};
+
+/// An odometry in map, as Tern itself writes it.
+ros::Odometry some_odometry() {
+  UavState state;
+  state.at = kNow;
+  state.motion.p = Vec3(1.0, 2.0, 3.0);
+  state.motion.v = Vec3(4.0, -1.0, 0.5);
+  state.yaw = 2.5;
+  return ros::odometry_of(state, Vec3(0.1, 0.2, 0.3), {});
+}
+
+TEST_F(Intake, ReadsBackWhatTernWrites) {
+  const auto reading = read(some_odometry(), context);
+  ASSERT_TRUE(reading);
+  EXPECT_EQ(reading->at, kNow);
+  EXPECT_LT((reading->position - Vec3(1.0, 2.0, 3.0)).norm(), 1e-12);
+  EXPECT_LT((reading->velocity - Vec3(4.0, -1.0, 0.5)).norm(), 1e-12);
+  EXPECT_NEAR(reading->yaw, 2.5, 1e-12);
+  EXPECT_LT((reading->position_sigma - Vec3(0.1, 0.2, 0.3)).norm(), 1e-12);
+
+  ObservationSet frame;
+  frame.at = kNow;
+  frame.detections = {{Vec3(5.0, 6.0, 7.0), Vec3(0.5, 1.0, 1.5), Vec3::Zero(), 12},
+                      {Vec3(8.0, 6.0, 7.0), Vec3::Ones()}};
+  const auto taken = read(ros::detections_of(frame, {}), context);
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->sensor_position, Vec3(1.0, 2.0, 3.0)) << "the vehicle's";
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(taken->detections[k].position, frame.detections[k].position);
+    EXPECT_EQ(taken->detections[k].half_extents, frame.detections[k].half_extents);
+    EXPECT_EQ(taken->detections[k].track_id, frame.detections[k].track_id);
+    EXPECT_LT((taken->detections[k].variance - Vec3::Constant(0.01)).norm(), 1e-12) << "detection_sigma_m²";
+  }
+}
+
+TEST_F(Intake, TurnsTheVelocityByTheWholeAttitude) {
+  for (int k = 0; k < 100; ++k) {
+    const RigidTransform T_MO = any_pose(rng), T_OB = any_pose(rng);
+    const Vec3 v_B = any_vec(rng, 10.0);
+    ASSERT_TRUE(transforms.add(transform_of("map", "odom", T_MO, kNow), false, kNow));
+    ros::Odometry odometry = some_odometry();
+    odometry.header.frame_id = "odom";
+    odometry.pose.pose = to_ros(T_OB);
+    odometry.twist.twist.linear = to_ros(v_B);
+    const auto reading = read(odometry, context);
+    ASSERT_TRUE(reading);
+    // The velocity moves a point of the body as it moves in W.
+    constexpr double kStep = 1e-6;
+    const Vec3 moved = T_MO(T_OB(kStep * v_B)), here = T_MO(T_OB(Vec3::Zero()));
+    EXPECT_LT(((moved - here) / kStep - reading->velocity).norm(), 1e-6);
+    EXPECT_LT((here - reading->position).norm(), 1e-12);
+  }
+}
+
+/// A box along W's axes contains all corners of the turned one, and touches the farthest of them.
+TEST_F(Intake, MakesBoxesThatContainTheTurnedOnes) {
+  for (int k = 0; k < 100; ++k) {
+    const RigidTransform T_WS = any_pose(rng), T_SD = any_pose(rng);
+    ASSERT_TRUE(transforms.add(transform_of("map", "lidar", T_WS, kNow), false, kNow));
+    ros::Detection3DArray array{{ros::to_ros(kNow), "lidar"}, {}};
+    ros::Detection3D& detection = array.detections.emplace_back();
+    const Vec3 size = any_vec(rng, 3.0).cwiseAbs();
+    detection.bbox = {to_ros(T_SD), to_ros(size)};
+    const auto frame = read(array, context);
+    ASSERT_TRUE(frame);
+    EXPECT_LT((frame->sensor_position - T_WS.p).norm(), 1e-12);
+    const Detection& box = frame->detections.at(0);
+    Vec3 farthest = Vec3::Zero();
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5, (corner & 4) != 0 ? 0.5 : -0.5);
+      farthest = farthest.cwiseMax((T_WS(T_SD(sign.cwiseProduct(size))) - box.position).cwiseAbs());
+    }
+    EXPECT_LT((farthest - box.half_extents).norm(), 1e-9);
+  }
+}
+
+TEST_F(Intake, ReadsIdsOfDigitsAndNumbersOthers) {
+  ros::Detection3DArray array{{ros::to_ros(kNow), "map"}, std::vector<ros::Detection3D>(4)};
+  array.detections[0].id = "7";
+  array.detections[1].id = "person_7";
+  array.detections[2].id = "1000000000";
+  const auto frame = read(array, context);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->detections[0].track_id, 7);
+  EXPECT_EQ(frame->detections[1].track_id, read(array, context)->detections[1].track_id);
+  for (int k : {1, 2}) {
+    EXPECT_GE(frame->detections[idx(k)].track_id, 0);
+    EXPECT_LT(frame->detections[idx(k)].track_id, 1'000'000'000);
+  }
+  EXPECT_EQ(frame->detections[3].track_id, kNoTrackId);
+  array.detections[3].id = "7";
+  EXPECT_THAT(why_not(array), HasSubstr("detections[3]: a second one with the id \"7\""));
+}
+
+TEST_F(Intake, SaysWhatIsWrong) {
+  ros::Odometry odometry = some_odometry();
+  odometry.header.stamp = ros::to_ros(kNow - Duration{400'000});
+  EXPECT_THAT(why_not(odometry), HasSubstr("its stamp is 0.400 s old; clocks must agree"));
+  odometry = some_odometry();
+  odometry.header.frame_id = "";
+  EXPECT_THAT(why_not(odometry), HasSubstr("header.frame_id is empty"));
+  odometry.header.frame_id = "odom";
+  EXPECT_THAT(why_not(odometry), HasSubstr("no transform leads from odom to map"));
+  EXPECT_TRUE(read(odometry, context).error().may_come);
+  odometry = some_odometry();
+  odometry.twist.twist.linear.z = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(why_not(odometry), HasSubstr("the velocity is not finite"));
+  odometry = some_odometry();
+  odometry.pose.covariance[7] = -1.0;
+  EXPECT_EQ(read(odometry, context)->position_sigma, Vec3::Zero()) << "unknown";
+
+  ros::Detection3DArray array{{ros::to_ros(kNow), "map"}, std::vector<ros::Detection3D>(1)};
+  array.detections[0].bbox.size.y = -1.0;
+  EXPECT_THAT(why_not(array), HasSubstr("detections[0]: bbox.size [0, -1, 0] is no size"));
+  ros::PoseStamped goal{{{}, "map"}, {{1.0, std::nan(""), 2.0}, {}}};
+  EXPECT_THAT(why_not(goal), HasSubstr("is no place"));
+}
+
+/// A cloud of float32 x, y, z and a class, with bytes between them.
+ros::PointCloud2 cloud_of(const std::vector<Eigen::Vector3f>& points, std::uint32_t height = 1) {
+  ros::PointCloud2 cloud;
+  cloud.header = {ros::to_ros(kNow), "lidar"};
+  cloud.point_fields = {{"intensity", 0, 7, 1}, {"z", 4, 7, 1}, {"x", 8, 7, 1}, {"y", 16, 7, 1}, {"class", 21, 2, 1}};
+  cloud.point_step = 24;
+  cloud.height = height;
+  cloud.width = static_cast<std::uint32_t>(points.size()) / height;
+  cloud.row_step = cloud.width * cloud.point_step + 8;
+  cloud.data.resize(std::size_t{cloud.row_step} * height);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    std::uint8_t* bytes = cloud.data.data() + k / cloud.width * cloud.row_step + k % cloud.width * cloud.point_step;
+    std::memcpy(bytes + 8, &points[k].x(), 4);
+    std::memcpy(bytes + 16, &points[k].y(), 4);
+    std::memcpy(bytes + 4, &points[k].z(), 4);
+    bytes[21] = static_cast<std::uint8_t>(k);
+  }
+  return cloud;
+}
+
+TEST_F(Intake, ReadsClouds) {
+  const RigidTransform T_WS = any_pose(rng);
+  ASSERT_TRUE(transforms.add(transform_of("map", "lidar", T_WS, kNow), false, kNow));
+  std::vector<Eigen::Vector3f> points;
+  for (int k = 0; k < 12; ++k) points.push_back(any_vec(rng, 20.0).cast<float>());
+  const auto scans = read(cloud_of(points, 3), context);
+  ASSERT_TRUE(scans);
+  ASSERT_EQ(scans->size(), 1U);
+  EXPECT_EQ((*scans)[0].sensor_position, T_WS.p);
+  ASSERT_EQ((*scans)[0].points.size(), points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const CloudPoint& point = (*scans)[0].points[k];
+    EXPECT_LT((point.position.cast<double>() - T_WS.q * points[k].cast<double>()).norm(), 1e-5);
+    EXPECT_EQ(point.class_number, k);
+  }
+  points[3].x() = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(read(cloud_of(points), context)->at(0).points.size(), points.size() - 1) << "no return";
+}
+
+TEST_F(Intake, SplitsAndThinsLargeClouds) {
+  ASSERT_TRUE(transforms.add(transform_of("map", "lidar", {}, kNow), false, kNow));
+  for (const std::size_t n : {4'000U, 4'001U, 16'000U, 16'001U, 100'000U}) {
+    const auto scans = read(cloud_of(std::vector<Eigen::Vector3f>(n, Eigen::Vector3f::Ones())), context);
+    ASSERT_TRUE(scans);
+    std::size_t points = 0;
+    for (const CloudScan& scan : *scans) {
+      points += scan.points.size();
+      EXPECT_EQ(scan.at, kNow) << "one scan";
+      CloudScan named = scan;
+      named.header.name = {1, 1};
+      EXPECT_LE(encode(named).size(), std::size_t{kMaxMessageBytes});
+    }
+    const std::size_t every = (n + 15'999) / 16'000;
+    EXPECT_EQ(points, (n + every - 1) / every);
+  }
+}
+
+TEST_F(Intake, RefusesCloudsThatDoNotFit) {
+  ASSERT_TRUE(transforms.add(transform_of("map", "lidar", {}, kNow), false, kNow));
+  const auto good = cloud_of(std::vector<Eigen::Vector3f>(10, Eigen::Vector3f::Ones()));
+  auto cloud = good;
+  cloud.width = 11;
+  EXPECT_THAT(why_not(cloud), HasSubstr("1 × 11 points of 24 bytes do not fit"));
+  cloud = good;
+  cloud.height = 0x80000000U;
+  EXPECT_THAT(why_not(cloud), HasSubstr("do not fit"));
+  cloud = good;
+  cloud.point_fields[1].offset = 0xFFFFFFFFU;
+  EXPECT_THAT(why_not(cloud), HasSubstr("the field z lies outside its point"));
+  cloud = good;
+  cloud.point_fields[2].datatype = 8;
+  EXPECT_THAT(why_not(cloud), HasSubstr("no float32 field x"));
+  cloud = good;
+  cloud.is_bigendian = true;
+  EXPECT_THAT(why_not(cloud), HasSubstr("big-endian"));
+}
+
+/// What is used after mutations of a message's bytes may be published: it obeys the contract of its channel.
+TEST_F(Intake, HostileBytesGiveLegalMessagesOrNone) {
+  ASSERT_TRUE(transforms.add(transform_of("map", "lidar", any_pose(rng), kNow), false, kNow));
+  ros::Detection3DArray array{{ros::to_ros(kNow), "lidar"}, std::vector<ros::Detection3D>(3)};
+  array.detections[0].results.resize(1);
+  const std::vector<std::string> valid = {
+      ros::encode_cdr(some_odometry()), ros::encode_cdr(array),
+      ros::encode_cdr(cloud_of(std::vector<Eigen::Vector3f>(20, Eigen::Vector3f::Ones()), 2)),
+      ros::encode_cdr(ros::PoseStamped{{ros::to_ros(kNow), "map"}, {}}),
+      ros::encode_cdr(ros::TFMessage{{transform_of("map", "a", any_pose(rng), kNow)}})};
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng() % n); };
+  int used = 0;
+  const int mutations = support::at_effort(500'000);
+  for (int k = 0; k < mutations; ++k) {
+    const std::size_t which = below(valid.size());
+    std::vector<std::uint8_t> bytes(valid[which].begin(), valid[which].end());
+    if (below(4) == 0) bytes.resize(below(bytes.size() + 20));
+    for (std::size_t n = below(4) + 1; n > 0 && !bytes.empty(); --n)
+      bytes[below(bytes.size())] = static_cast<std::uint8_t>(rng());
+    const auto publish = [&](auto message) {
+      message.header.name = {1, 1};
+      message.header.utime = kNow;
+      EXPECT_NO_THROW((void)encode(message));
+      ++used;
+    };
+    const auto try_as = [&]<class T>(T) -> std::optional<T> { return ros::decode_cdr<T>(bytes); };
+    if (which == 0) {
+      const auto message = try_as(ros::Odometry());
+      const auto reading = message ? read(*message, context) : Taken<OdometryReading>();
+      if (!message || !reading) continue;
+      UavState state;
+      state.at = reading->at;
+      state.motion.p = reading->position;
+      state.motion.v = reading->velocity;
+      state.yaw = reading->yaw;
+      publish(state);
+      VehicleStatus status;
+      status.why_not = "x";
+      status.position_sigma = reading->position_sigma;
+      publish(status);
+    } else if (which == 1) {
+      const auto message = try_as(ros::Detection3DArray());
+      if (const auto frame = message ? read(*message, context) : Taken<ObservationSet>(); message && frame)
+        publish(*frame);
+    } else if (which == 2) {
+      const auto message = try_as(ros::PointCloud2());
+      if (const auto scans = message ? read(*message, context) : Taken<std::vector<CloudScan>>(); message && scans) {
+        for (const CloudScan& scan : *scans) publish(scan);
+      }
+    } else if (which == 3) {
+      const auto message = try_as(ros::PoseStamped());
+      if (const auto position = message ? read(*message, context) : Taken<Vec3>(); message && position) {
+        Goal goal;
+        goal.id = 1;
+        goal.position = *position;
+        publish(goal);
+      }
+    } else if (const auto message = try_as(ros::TFMessage())) {
+      for (const auto& transform : message->transforms) (void)transforms.add(transform, rng() % 2 == 0, kNow);
+    }
+  }
+  EXPECT_GT(used, mutations / 20) << "or else this shows nothing";
+}
+
+}  // namespace
+}  // namespace tern::ros2

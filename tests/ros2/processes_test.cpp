@@ -1,0 +1,391 @@
+// tern-ros2 as a process, with Fast DDS on ROS's side. Runs inside tests/support/hermetic.sh, which gives it a network
+// of its own. The test plays the rest of Tern.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "tests/ros2/fast_peer.h"
+#include "tests/support/child_process.h"
+#include "tests/support/effort.h"
+#include "tests/support/network_end.h"
+#include "tests/support/straight_plan.h"
+
+namespace tern::ros2 {
+namespace {
+
+using ::testing::HasSubstr;
+using namespace channels;
+
+constexpr int kDomain = 7;
+
+class Ros2Processes : public ::testing::Test, protected NetworkEnd {
+ protected:
+  void TearDown() override {
+    if (!HasFailure() || !bridge) return;
+    bridge->signal(SIGTERM);
+    bridge->wait();
+    std::cout << bridge->output;
+  }
+  void start(std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {TERN_ROS2, "--domain", std::to_string(kDomain)});
+    bridge = std::make_unique<Child>(more);
+    ASSERT_TRUE(wait_until_ready());
+  }
+  /// Does something again and again until the condition holds.
+  bool repeat_until(const std::function<void()>& what, const std::function<bool()>& condition) {
+    UTime next = clock.now();
+    return wait_for([&] {
+      if (clock.now() >= next) {
+        what();
+        next = clock.now() + Duration{20'000};
+      }
+      return condition();
+    });
+  }
+  void stamp(std_msgs::msg::dds_::Header_& header) const {
+    const std::int64_t now_us = clock.now().us;
+    header.stamp().sec(static_cast<std::int32_t>(now_us / 1'000'000));
+    header.stamp().nanosec(static_cast<std::uint32_t>(now_us % 1'000'000 * 1'000));
+  }
+  geometry_msgs::msg::dds_::TransformStamped_ transform(const std::string& parent, const std::string& child,
+                                                        const Vec3& p, double yaw) const {
+    geometry_msgs::msg::dds_::TransformStamped_ t;
+    t.header().frame_id(parent);
+    stamp(t.header());
+    t.child_frame_id(child);
+    t.transform().translation().x(p.x());
+    t.transform().translation().y(p.y());
+    t.transform().translation().z(p.z());
+    t.transform().rotation().z(std::sin(yaw / 2));
+    t.transform().rotation().w(std::cos(yaw / 2));
+    return t;
+  }
+  UavState some_state() {
+    UavState state;
+    state.at = clock.now();
+    state.motion.p = Vec3(1.5, -2.0, 3.25);
+    state.motion.v = Vec3(2.0, 1.0, -0.5);
+    state.yaw = 0.8;
+    return state;
+  }
+
+  /// A plan of 8 m, from rest to rest.
+  [[nodiscard]] Plan some_plan() const {
+    HorizonRequest request;
+    request.id = 1;
+    request.t_s = clock.now();
+    request.committed.start = request.t_s;
+    request.flight_box = box_around(Vec3::Zero(), Vec3::Constant(100.0));
+    Plan plan = straight_plan(request, Vec3(20.0, 10.0, 3.0));
+    plan.inputs.request = {1, 1};
+    return plan;
+  }
+
+  FastPeer ros{kDomain};
+  std::unique_ptr<Child> bridge;
+};
+
+TEST_F(Ros2Processes, SendStatesPlansAndDrawingsAsRosKnowsThem) {
+  using namespace nav_msgs::msg::dds_;
+  start();
+  auto* odom = ros.reader<Odometry_PubSubType>("rt/odom");
+  auto* paths = ros.reader<Path_PubSubType>("rt/plan", {.reliable = false});
+  auto* markers = ros.reader<visualization_msgs::msg::dds_::MarkerArray_PubSubType>("rt/tern/plan");
+  auto* trajectories = ros.reader<trajectory_msgs::msg::dds_::MultiDOFJointTrajectory_PubSubType>("rt/trajectory");
+
+  UavState state;
+  std::optional<Odometry_> odometry;
+  ASSERT_TRUE(repeat_until(
+      [&] {
+        state = some_state();
+        bus->publish(kUavState, state);
+      },
+      [&] { return (odometry = FastPeer::take<Odometry_>(odom)).has_value(); }));
+  EXPECT_EQ(odometry->header().frame_id(), "map");
+  EXPECT_EQ(odometry->child_frame_id(), "base_link");
+  EXPECT_EQ(odometry->pose().pose().position().y(), -2.0);
+  EXPECT_EQ(odometry->pose().pose().orientation().z(), std::sin(0.4));
+  const auto& v = odometry->twist().twist().linear();
+  EXPECT_NEAR(v.x(), std::cos(0.8) * 2.0 + std::sin(0.8) * 1.0, 1e-12) << "in base_link";
+  EXPECT_NEAR(v.y(), -std::sin(0.8) * 2.0 + std::cos(0.8) * 1.0, 1e-12);
+  EXPECT_EQ(v.z(), -0.5);
+
+  const Plan plan = some_plan();
+  std::optional<Path_> path;
+  std::optional<trajectory_msgs::msg::dds_::MultiDOFJointTrajectory_> trajectory;
+  std::optional<visualization_msgs::msg::dds_::MarkerArray_> drawn;
+  ASSERT_TRUE(repeat_until([&] { bus->publish(kPlan, plan); },
+                           [&] {
+                             if (!path) path = FastPeer::take<Path_>(paths);
+                             if (!trajectory) {
+                               trajectory =
+                                   FastPeer::take<trajectory_msgs::msg::dds_::MultiDOFJointTrajectory_>(trajectories);
+                             }
+                             if (!drawn) drawn = FastPeer::take<visualization_msgs::msg::dds_::MarkerArray_>(markers);
+                             return path && trajectory && drawn;
+                           }));
+  ASSERT_EQ(path->poses().size(), trajectory->points().size());
+  for (std::size_t k = 0; k < path->poses().size(); ++k) {
+    const auto& at = path->poses()[k].header().stamp();
+    const UTime t{at.sec() * 1'000'000LL + at.nanosec() / 1000};
+    const MotionSample wanted = plan.trajectory.sample(t);
+    const auto& p = path->poses()[k].pose().position();
+    EXPECT_LT((Vec3(p.x(), p.y(), p.z()) - wanted.p).norm(), 1e-9);
+    const auto& a = trajectory->points()[k].accelerations()[0].linear();
+    EXPECT_LT((Vec3(a.x(), a.y(), a.z()) - wanted.a).norm(), 1e-9);
+  }
+  EXPECT_EQ(drawn->markers().at(1).type(), 4) << "a line strip";
+  EXPECT_GT(drawn->markers().at(1).points().size(), 10U);
+}
+
+/// Names, types, quality of service and user data as rmw_cyclonedds_cpp gives them to its own publishers (Jazzy).
+TEST_F(Ros2Processes, AnnounceWritersAsRmwDoes) {
+  start({"--namespace", "/drone1", "--remap", "odom:=/robot/odometry"});
+  const std::string known = "typehash=RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0;";
+  ASSERT_TRUE(wait_for([&] { return ros.writers_seen() >= 14; }));
+  const auto odometry = ros.seen("rt/robot/odometry"), map = ros.seen("rt/drone1/map_cloud"), tf = ros.seen("rt/tf");
+  ASSERT_TRUE(odometry && map && tf);
+  EXPECT_EQ(odometry->type, "nav_msgs::msg::dds_::Odometry_");
+  EXPECT_EQ(odometry->user_data, known);
+  EXPECT_TRUE(odometry->reliable);
+  EXPECT_FALSE(odometry->latched);
+  EXPECT_EQ(map->type, "sensor_msgs::msg::dds_::PointCloud2_");
+  EXPECT_TRUE(map->latched);
+  EXPECT_EQ(tf->type, "tf2_msgs::msg::dds_::TFMessage_");
+  EXPECT_FALSE(ros.seen("rt/clock")) << "the flight is not slowed: ROS's clock is the system's";
+}
+
+TEST_F(Ros2Processes, KeepTheNewestGoalForReadersThatComeLater) {
+  start();
+  Goal goal;
+  goal.id = 3;
+  goal.position = Vec3(10.0, 2.0, 1.5);
+  bus->publish(kGoal, goal);
+  UavState state = some_state();
+  auto* odom = ros.reader<nav_msgs::msg::dds_::Odometry_PubSubType>("rt/odom");
+  ASSERT_TRUE(repeat_until([&] { bus->publish(kUavState, state); },
+                           [&] { return FastPeer::take<nav_msgs::msg::dds_::Odometry_>(odom).has_value(); }));
+  auto* goals = ros.reader<geometry_msgs::msg::dds_::PoseStamped_PubSubType>("rt/goal_pose", {.latched = true});
+  std::optional<geometry_msgs::msg::dds_::PoseStamped_> seen;
+  ASSERT_TRUE(
+      wait_for([&] { return (seen = FastPeer::take<geometry_msgs::msg::dds_::PoseStamped_>(goals)).has_value(); }));
+  EXPECT_EQ(seen->pose().position().x(), 10.0);
+}
+
+geometry_msgs::msg::dds_::PoseStamped_ pose_at(double x, double y, double z, const std::string& frame = "map") {
+  geometry_msgs::msg::dds_::PoseStamped_ pose;
+  pose.header().frame_id(frame);
+  pose.pose().position().x(x);
+  pose.pose().position().y(y);
+  pose.pose().position().z(z);
+  pose.pose().orientation().w(1.0);
+  return pose;
+}
+
+TEST_F(Ros2Processes, PassGoalsOnceAndRefuseThoseOutsideTheFlightBox) {
+  start({"--receive", "goal_pose", "--set", "uav.flight_box={min: [-10, -10, 0], max: [100, 10, 5]}"});
+  std::vector<Goal> goals;
+  bus->subscribe(kGoal, [&](const Goal& goal) { goals.push_back(goal); });
+  auto* out = ros.writer<geometry_msgs::msg::dds_::PoseStamped_PubSubType>("rt/goal_pose");
+  ASSERT_TRUE(wait_for([&] { return FastPeer::is_matched(out); }));
+  auto goal = pose_at(20.0, -3.0, 1.5);
+  // A volatile reader may discover the writer later than the writer the reader, and miss what was sent in between.
+  ASSERT_TRUE(repeat_until([&] { out->write(&goal); }, [&] { return !goals.empty(); }));
+  EXPECT_EQ(goals[0].position, Vec3(20.0, -3.0, 1.5));
+  EXPECT_EQ(goals[0].mode, GoalMode::Go);
+  out->write(&goal);
+  auto outside = pose_at(20.0, -30.0, 1.5), nowhere = pose_at(20.0, std::nan(""), 1.5), lost = pose_at(1, 1, 1, "moon");
+  for (auto* wrong : {&outside, &nowhere, &lost}) out->write(wrong);
+  ASSERT_TRUE(wait_for([&] {
+    return std::any_of(beats.begin(), beats.end(), [](const Heartbeat& beat) {
+      return beat.waiting_for.find("/goal_pose: 3 messages were not used") != std::string::npos;
+    });
+  }));
+  EXPECT_THAT(beats.back().waiting_for, HasSubstr("no transform leads from moon to map"));
+  for (const Goal& repeated : goals) EXPECT_EQ(repeated.id, goals[0].id) << "the same position is the same goal";
+  EXPECT_GT(goals.size(), 2U) << "it is repeated until the executor repeats it";
+  auto next = pose_at(30.0, 0.0, 2.0);
+  out->write(&next);
+  ASSERT_TRUE(wait_for([&] { return goals.back().id > goals[0].id; }));
+  EXPECT_EQ(goals.back().position, Vec3(30.0, 0.0, 2.0));
+  EXPECT_EQ(ros.seen("rt/goal_pose")->user_data, "") << "the test's own writer: a topic that is received is not sent";
+}
+
+TEST_F(Ros2Processes, OutliveAPeerThatLeaves) {
+  start({"--receive", "goal_pose,odom"});
+  std::vector<Goal> goals;
+  bus->subscribe(kGoal, [&](const Goal& goal) { goals.push_back(goal); });
+  for (double x = 1.0; x < 4.0; x += 1.0) {
+    FastPeer guest(kDomain);
+    auto* out = guest.writer<geometry_msgs::msg::dds_::PoseStamped_PubSubType>("rt/goal_pose");
+    auto* odom = guest.writer<nav_msgs::msg::dds_::Odometry_PubSubType>("rt/odom", {.reliable = false});
+    ASSERT_TRUE(wait_for([&] { return FastPeer::is_matched(odom); }));
+    auto goal = pose_at(x, 0.0, 1.0);
+    ASSERT_TRUE(
+        repeat_until([&] { out->write(&goal); }, [&] { return !goals.empty() && goals.back().position.x() == x; }));
+  }
+}
+
+TEST_F(Ros2Processes, ReceiveNothingUnlessAsked) {
+  start();
+  ASSERT_TRUE(wait_for([&] { return ros.seen("rt/goal_pose").has_value(); }));
+  auto* goals = ros.writer<geometry_msgs::msg::dds_::PoseStamped_PubSubType>("rt/goal_pose");
+  auto* detections = ros.writer<vision_msgs::msg::dds_::Detection3DArray_PubSubType>("rt/detections");
+  auto* seen = ros.reader<nav_msgs::msg::dds_::Odometry_PubSubType>("rt/odom");
+  ASSERT_TRUE(repeat_until([&] { bus->publish(kUavState, some_state()); },
+                           [&] { return FastPeer::take<nav_msgs::msg::dds_::Odometry_>(seen).has_value(); }));
+  EXPECT_FALSE(FastPeer::is_matched(goals));
+  EXPECT_FALSE(FastPeer::is_matched(detections));
+}
+
+/// Odometry in a frame of its own and detections of a sensor that is mounted on the vehicle.
+TEST_F(Ros2Processes, AreTheVehicleAndItsDetector) {
+  start({"--receive", "odom,detections"});
+  std::optional<UavState> state;
+  std::optional<VehicleStatus> status;
+  std::optional<ObservationSet> frame;
+  bus->subscribe(kUavState, [&](const UavState& s) { state = s; });
+  bus->subscribe(kVehicleStatus, [&](const VehicleStatus& s) { status = s; });
+  bus->subscribe(kObstacleObservations, [&](const ObservationSet& f) { frame = f; });
+  auto* tf = ros.writer<tf2_msgs::msg::dds_::TFMessage_PubSubType>("rt/tf");
+  auto* tf_static =
+      ros.writer<tf2_msgs::msg::dds_::TFMessage_PubSubType>("rt/tf_static", {.latched = true, .depth = 1});
+  auto* odom = ros.writer<nav_msgs::msg::dds_::Odometry_PubSubType>("rt/odom");
+  auto* detections =
+      ros.writer<vision_msgs::msg::dds_::Detection3DArray_PubSubType>("rt/detections", {.reliable = false});
+  tf2_msgs::msg::dds_::TFMessage_ mounted;
+  mounted.transforms().push_back(transform("base_link", "lidar", Vec3(0.5, 0.0, 0.0), 0.0));
+  mounted.transforms().push_back(transform("map", "odom", Vec3(100.0, 0.0, 0.0), M_PI / 2));
+  tf_static->write(&mounted);
+  const auto send = [&] {
+    tf2_msgs::msg::dds_::TFMessage_ moving;
+    moving.transforms().push_back(transform("odom", "base_link", Vec3(4.0, 0.0, 2.0), 0.0));
+    tf->write(&moving);
+    nav_msgs::msg::dds_::Odometry_ o;
+    o.header().frame_id("odom");
+    stamp(o.header());
+    o.child_frame_id("base_link");
+    o.pose().pose().position().x(4.0);
+    o.pose().pose().position().z(2.0);
+    o.pose().pose().orientation().w(1.0);
+    o.pose().covariance()[0] = 0.04;
+    o.twist().twist().linear().x(3.0);
+    odom->write(&o);
+    vision_msgs::msg::dds_::Detection3DArray_ array;
+    array.header(moving.transforms()[0].header());
+    array.header().frame_id("lidar");
+    array.detections().resize(1);
+    array.detections()[0].id("17");
+    array.detections()[0].bbox().center().position().x(10.0);
+    array.detections()[0].bbox().center().orientation().w(1.0);
+    array.detections()[0].bbox().size().x(2.0);
+    array.detections()[0].bbox().size().y(1.0);
+    array.detections()[0].bbox().size().z(4.0);
+    detections->write(&array);
+  };
+  ASSERT_TRUE(repeat_until(send, [&] { return state && frame && status && status->following; }));
+  EXPECT_LT((state->motion.p - Vec3(100.0, 4.0, 2.0)).norm(), 1e-9);
+  EXPECT_LT((state->motion.v - Vec3(0.0, 3.0, 0.0)).norm(), 1e-9);
+  EXPECT_NEAR(state->yaw, M_PI / 2, 1e-9);
+  EXPECT_LT((status->position_sigma - Vec3(0.0, 0.2, 0.0)).norm(), 1e-9) << "turned with the frame";
+  EXPECT_LT((frame->sensor_position - Vec3(100.0, 4.5, 2.0)).norm(), 1e-9);
+  ASSERT_EQ(frame->detections.size(), 1U);
+  EXPECT_LT((frame->detections[0].position - Vec3(100.0, 14.5, 2.0)).norm(), 1e-9);
+  EXPECT_LT((frame->detections[0].half_extents - Vec3(0.5, 1.0, 2.0)).norm(), 1e-9);
+  EXPECT_EQ(frame->detections[0].track_id, 17);
+  ASSERT_TRUE(wait_for([&] { return !status->following; })) << "the odometry has ended";
+  EXPECT_THAT(status->why_not, HasSubstr("the newest odometry is 0."));
+}
+
+/// A peer that floods and lies: bytes that are no messages, and messages that claim anything.
+TEST_F(Ros2Processes, SurviveHostileBytes) {
+  start({"--receive", "goal_pose,odom,following,detections,cloud"});
+  std::int64_t states = 0;
+  bus->subscribe(kUavState, [&](const UavState&) { ++states; });
+  nav_msgs::msg::dds_::Odometry_ odometry;
+  odometry.header().frame_id("map");
+  odometry.pose().pose().orientation().w(1.0);
+  vision_msgs::msg::dds_::Detection3DArray_ detections;
+  detections.header().frame_id("map");
+  detections.detections().resize(2);
+  sensor_msgs::msg::dds_::PointCloud2_ cloud;
+  cloud.header().frame_id("map");
+  cloud.fields().resize(3);
+  cloud.data().resize(480);
+  tf2_msgs::msg::dds_::TFMessage_ transforms;
+  transforms.transforms().resize(2);
+  std_msgs::msg::dds_::Bool_ following;
+  auto goal = pose_at(1.0, 1.0, 1.0);
+  struct Liar {
+    fast::DataWriter* writer;
+    std::string bytes;
+  };
+  std::vector<Liar> liars;
+  const auto add = [&](auto&& type, auto& message, const std::string& topic) {
+    liars.push_back({ros.writer(fast::TypeSupport(new HostileType(type)), topic), cdr_of(type, &message)});
+  };
+  add(nav_msgs::msg::dds_::Odometry_PubSubType(), odometry, "rt/odom");
+  add(geometry_msgs::msg::dds_::PoseStamped_PubSubType(), goal, "rt/goal_pose");
+  add(vision_msgs::msg::dds_::Detection3DArray_PubSubType(), detections, "rt/detections");
+  add(sensor_msgs::msg::dds_::PointCloud2_PubSubType(), cloud, "rt/cloud");
+  add(std_msgs::msg::dds_::Bool_PubSubType(), following, "rt/following");
+  add(tf2_msgs::msg::dds_::TFMessage_PubSubType(), transforms, "rt/tf");
+  for (const Liar& liar : liars) ASSERT_TRUE(wait_for([&] { return FastPeer::is_matched(liar.writer); }));
+  std::mt19937_64 rng(7);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng() % n); };
+  const int mutations = support::at_effort(100'000);
+  for (int k = 0; k < mutations; ++k) {
+    const Liar& liar = liars[below(liars.size())];
+    std::string bytes = liar.bytes;
+    if (below(2) == 0) bytes.resize(below(bytes.size() + 100));
+    for (std::size_t n = below(8) + 1; n > 0 && !bytes.empty(); --n) bytes[below(bytes.size())] = char(rng() & 0xFF);
+    liar.writer->write(&bytes);
+    if (k % 100 == 0) wait_for([] { return true; });
+  }
+  states = 0;
+  nav_msgs::msg::dds_::Odometry_PubSubType honest;
+  ASSERT_TRUE(repeat_until(
+      [&] {
+        stamp(odometry.header());
+        std::string bytes = cdr_of(honest, &odometry);
+        liars[0].writer->write(&bytes);
+      },
+      [&] { return states > 5; }));
+  EXPECT_FALSE(bridge->has_ended()) << bridge->output;
+}
+
+TEST_F(Ros2Processes, SayThatAReaderDoesNotFitAndEndWhenAsked) {
+  start();
+  auto* odom = ros.reader<nav_msgs::msg::dds_::Odometry_PubSubType>("rt/odom", {.latched = true});
+  ASSERT_NE(odom, nullptr);
+  ASSERT_TRUE(wait_for([&] {
+    return beats.back().waiting_for.find("/odom: the QoS of a reader does not fit a reliable, volatile writer") !=
+           std::string::npos;
+  }));
+  bridge->signal(SIGTERM);
+  EXPECT_EQ(bridge->wait(), 0);
+}
+
+TEST_F(Ros2Processes, SayWhichOptionIsWrong) {
+  for (const auto& [words, why] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--send", "odom,odem"}, "--send odem: there is no such topic; there are /odom"},
+           {{"--remap", "odom=/x"}, "--remap odom=/x: must be TOPIC:=/NAME"},
+           {{"--remap", "odom:=/1x"}, "/1x is no full name of ROS"},
+           {{"--namespace", "drone"}, "--namespace drone: must be a name of ROS"},
+           {{"--receive", "plan"}, "--receive plan: there is no such topic; there are /goal_pose, /odom"},
+           {{"--receive", "following"}, "add odom"},
+           {{"--interface", "nosuch0"}, "nosuch0"},
+           {{"--domain", "233"}, "must be a whole number of 0 to 232"}}) {
+    std::vector<std::string> argv{TERN_ROS2};
+    argv.insert(argv.end(), words.begin(), words.end());
+    Child wrong(argv);
+    EXPECT_EQ(wrong.wait(), 2) << words[1];
+    EXPECT_THAT(wrong.output, HasSubstr(why));
+  }
+}
+
+}  // namespace
+}  // namespace tern::ros2
