@@ -11,6 +11,5 @@ COPY --from=build /tern_*.deb /tmp/
 RUN apt-get update && apt-get install -y --no-install-recommends /tmp/tern_*.deb && rm -rf /tmp/tern_*.deb /var/lib/apt/lists/*
 RUN useradd --create-home tern && mkdir /flights && chown tern /flights
 USER tern
-WORKDIR /flights
 ENTRYPOINT ["tern"]
 CMD ["fly"]
