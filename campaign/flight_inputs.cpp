@@ -35,7 +35,8 @@ std::vector<fs::path> scenario_folders() {
 /// Reads the sections of a campaign's processes, as these processes would.
 MapperConfig read_sections(ConfigDocument& document, const Scenario& scenario) {
   ConfigSection root = document.root();
-  (void)read_simulator_config(root.section("simulator"), scenario.seed);
+  const bool has_estimator = read_simulator_config(root.section("simulator"), scenario.seed).vio.has_value();
+  if (has_estimator) (void)root.section("estimator").read<EstimatorNodeConfig>();
   (void)root.section("executor").read<ExecutorConfig>();
   (void)read_predictor_config(root.section("predictor"));
   (void)read_planner_config(root.section("planner"), scenario.semantics);

@@ -156,7 +156,8 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
     FlightSummary summary = watch.summary(fly(system, watch));
     summary.log = log;
     summary.version = identity.version;
-    record_text(folder + "/summary.json", to_json(summary));
+    const auto estimate = watch.estimate();
+    record_text(folder + "/summary.json", estimate ? with_estimate(to_json(summary), *estimate) : to_json(summary));
     flight.record = make_record(summary, system.executor().counters(), inputs, identity);
   }
   if (const auto flushed = writer->flush(); !flushed) throw CannotRecord(flushed.error().message);

@@ -39,6 +39,7 @@ std::int64_t FlightWatch::simulator_epoch_us() const {
 
 void FlightWatch::receive(const UavState& state) {
   state_ = state;
+  if (!result_) estimate_.add_believed(state);
   note(state);
   ledger_.advance(state.header.utime);
 }

@@ -15,6 +15,7 @@
 #include "core/world/scenario.h"
 #include "core/world/vehicle.h"
 #include "monitor/duplicate_filter.h"
+#include "monitor/estimate_watch.h"
 #include "monitor/flight_evidence.h"
 #include "monitor/flight_summary.h"
 #include "monitor/process_table.h"
@@ -81,6 +82,12 @@ class FlightWatch {
   void receive(const Plan& plan);
   void receive(const PlanTiming& timing);
   void receive(const VehicleStatus& status) { note(status); }
+  void receive(const Odometry& odometry) {
+    if (!result_) estimate_.add(odometry);
+  }
+  void receive_truth(const UavState& truth) {
+    if (!result_) estimate_.add_truth(truth);
+  }
   void receive(const TrackSet& predictions) { note(predictions); }
   void receive(const ObservationSet& observations) { note(observations); }
   void receive(const ConfigurationReport& report) { note(report); }
@@ -99,6 +106,8 @@ class FlightWatch {
   [[nodiscard]] LiveView live() const;
   /// The summary except log and version, which the watch does not know.
   [[nodiscard]] FlightSummary summary(const Ending& ending) const;
+  /// How wrong the vehicle's own estimate was; nullopt if it has none. It is beside the summary, since few vehicles do.
+  [[nodiscard]] std::optional<EstimateMeasures> estimate() const { return estimate_.measures(goal_); }
 
  private:
   [[nodiscard]] double nearest_obstacle() const;
@@ -116,6 +125,7 @@ class FlightWatch {
   ProcessTable processes_;
   RequestLedger ledger_;
   FlightEvidence evidence_;
+  EstimateWatch estimate_;
   RecordingWatch recording_;
   std::optional<double> pace_;
   std::optional<UavState> state_;

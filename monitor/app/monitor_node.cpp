@@ -86,9 +86,11 @@ void MonitorNode::finish(const Ending& ending) {
   summary.log = options_.log;
   summary.command = options_.command;
   summary.version = build_id();
-  output_.print(to_text(summary));
+  const auto estimate = watch_.estimate();
+  output_.print(to_text(summary) + (estimate ? to_text(*estimate) : ""));
   exit_code_ = exit_code(summary);
-  if (options_.summary_file.empty() || write_text(options_.summary_file, to_json(summary))) return;
+  const std::string json = estimate ? with_estimate(to_json(summary), *estimate) : to_json(summary);
+  if (options_.summary_file.empty() || write_text(options_.summary_file, json)) return;
   // The process's own log may be on the same full disk.
   output_.print(options_.summary_file + ": the summary could not be written as a whole\n");
   if (exit_code_ == 0) exit_code_ = kExitIncomplete;

@@ -8,12 +8,12 @@
 
 namespace tern {
 
-/// The channels by which a FlightWatch judges; not OBSTACLE_TRUTH, which is only shown.
+/// The channels by which a FlightWatch judges, beside VEHICLE_TRUTH; not OBSTACLE_TRUTH, which is only shown.
 inline constexpr std::tuple kJudgedChannels{
-    channels::kHeartbeat,   channels::kConfiguration,       channels::kUavState,
-    channels::kGoal,        channels::kVehicleStatus,       channels::kHorizonRequest,
-    channels::kPlan,        channels::kPlanTiming,          channels::kFlightResult,
-    channels::kPredictions, channels::kObstacleObservations};
+    channels::kHeartbeat,   channels::kConfiguration,        channels::kUavState,
+    channels::kGoal,        channels::kVehicleStatus,        channels::kHorizonRequest,
+    channels::kPlan,        channels::kPlanTiming,           channels::kFlightResult,
+    channels::kPredictions, channels::kObstacleObservations, channels::kOdometry};
 
 /// Hands `watch` all messages by which it judges. `watch` must exist while the bus delivers messages.
 inline void subscribe_flight(Bus& bus, FlightWatch& watch) {
@@ -27,6 +27,7 @@ inline void subscribe_flight(Bus& bus, FlightWatch& watch) {
     });
   };
   for_each_channel(subscribe, kJudgedChannels);
+  bus.subscribe(channels::kVehicleTruth, [&watch](const UavState& truth) { watch.receive_truth(truth); });
 }
 
 }  // namespace tern

@@ -12,20 +12,20 @@ void WorldError::add(const Odometry& odometry) {
   if (odometry.state != EstimatorState::Tracking && odometry.state != EstimatorState::Blind) return;
   odometry_ = odometry;
   const OdometryOffset offset{odometry.p_WO, odometry.yaw_WO, odometry.epoch};
-  p_W_ = offset.to_W(PointInO{odometry.p_OB}).xyz;
-  v_W_ = offset.to_W(VectorInO{odometry.v_OB}).xyz;
+  position_ = offset.to_W(PointInO{odometry.p_OB}).xyz;
+  velocity_ = offset.to_W(VectorInO{odometry.v_OB}).xyz;
 }
 
 void WorldError::add_vehicle(const Vec3& p, UTime at) {
   if (!odometry_) return;
-  apart_ = (p - p_W_ - (at - odometry_->at).seconds() * v_W_).norm();
+  apart_ = (p - position_ - (at - odometry_->at).seconds() * velocity_).norm();
 }
 
 double WorldError::margin(const Vec3& x) const {
   if (!odometry_) return 0.0;
   const Eigen::Matrix<double, 6, 6> pose =
       Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(odometry_->pose_covariance.data());
-  const Vec3 r = x - p_W_;
+  const Vec3 r = x - position_;
   Eigen::Matrix<double, 3, 6> J;
   J << 1.0, 0.0, 0.0, 0.0, r.z(), -r.y(),  //
       0.0, 1.0, 0.0, -r.z(), 0.0, r.x(),   //

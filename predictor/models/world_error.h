@@ -36,8 +36,8 @@ class WorldError {
 
  private:
   std::optional<Odometry> odometry_;
-  Vec3 p_W_ = Vec3::Zero(), v_W_ = Vec3::Zero();  ///< the estimate's position (m) and velocity (m/s) in W
-  double apart_ = 0.0;                            ///< d, m
+  Vec3 position_ = Vec3::Zero(), velocity_ = Vec3::Zero();  ///< the estimate's position (m) and velocity (m/s) in W
+  double apart_ = 0.0;                                      ///< d, m
 };
 
 }  // namespace tern

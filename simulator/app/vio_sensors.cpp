@@ -43,7 +43,7 @@ FeatureFrame VioSensors::look(const StereoExposure& exposure, double world_s) {
   const Eigen::Vector2d centre(0.5 * camera_.width, 0.5 * camera_.height);
   FeatureFrame frame;
   frame.at = exposure.at;
-  const Eigen::Quaterniond q(camera_.R_BC());
+  const Eigen::Quaterniond q(camera_.camera_to_body());
   frame.q_BC = {q.w(), q.x(), q.y(), q.z()};
   frame.baseline_m = camera_.baseline_m;
   frame.sigma = std::max(tracks_.noise_px, kMinNoise) / focal;

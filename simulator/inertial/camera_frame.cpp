@@ -30,7 +30,7 @@ bool meets(const Box& box, const Vec3& a, const Vec3& b) {
 
 double StereoSpec::focal_px() const { return 0.5 * width / std::tan(radians(fov_deg) / 2.0); }
 
-Mat3 StereoSpec::R_BC() const {
+Mat3 StereoSpec::camera_to_body() const {
   Mat3 level;  // columns: the camera's right, down and forward in B
   level << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
   return rotation_exp(Vec3(0.0, radians(pitch_down_deg), 0.0)) * level;
@@ -42,15 +42,15 @@ CameraFrame::CameraFrame(const StereoSpec& spec, const InertialState& body, cons
       focal_(spec.focal_px()),
       sin_grazing_(std::sin(radians(spec.grazing_deg))),
       body_(body),
-      R_CW_((body.R * spec.R_BC()).transpose()),
-      rate_W_(body.R * rate) {
+      to_camera_((body.R * spec.camera_to_body()).transpose()),
+      rate_in_world_(body.R * rate) {
   for (const Box& box : boxes) {
     if (box.exteriorDistance(body.p) <= spec.range_m) near_.push_back(box);
   }
 }
 
 std::optional<StereoPixel> CameraFrame::project(const Vec3& p_W) const {
-  const Vec3 p = R_CW_ * (p_W - body_.p);
+  const Vec3 p = to_camera_ * (p_W - body_.p);
   if (p.z() <= 0.0) return std::nullopt;
   StereoPixel pixel;
   pixel.left = focal_ / p.z() * p.head<2>() + 0.5 * Eigen::Vector2d(spec_.width, spec_.height);
@@ -63,8 +63,8 @@ std::optional<StereoPixel> CameraFrame::project(const Vec3& p_W) const {
 
 /// With x_C = R_CW (p − p_B): ẋ_C = R_CW (v − v_B − ω × (p − p_B)), and the image moves by the projection's Jacobian.
 double CameraFrame::image_speed(const Vec3& p_C, const Vec3& v_W) const {
-  const Vec3 from_eye = R_CW_.transpose() * p_C;
-  const Vec3 moving = R_CW_ * (v_W - body_.v - rate_W_.cross(from_eye));
+  const Vec3 from_eye = to_camera_.transpose() * p_C;
+  const Vec3 moving = to_camera_ * (v_W - body_.v - rate_in_world_.cross(from_eye));
   const Eigen::Vector2d image = (moving.head<2>() - moving.z() / p_C.z() * p_C.head<2>()) / p_C.z();
   return focal_ * image.norm();
 }
@@ -78,9 +78,9 @@ std::optional<StereoPixel> CameraFrame::see(const SurfacePoint& point) const {
     const double across = point.two_sided ? std::abs(facing) : facing;
     if (across < sin_grazing_ * distance) return std::nullopt;
   }
-  const auto pixel = project(point.p);
+  auto pixel = project(point.p);
   if (!pixel) return std::nullopt;
-  if (image_speed(R_CW_ * -to_eye, point.v) >= spec_.blur_px_s) return std::nullopt;
+  if (image_speed(to_camera_ * -to_eye, point.v) >= spec_.blur_px_s) return std::nullopt;
   return pixel;
 }
 

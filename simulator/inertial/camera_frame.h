@@ -39,7 +39,7 @@ struct StereoSpec {
   /// Returns the focal length, pixels: width/2 / tan(fov/2).
   [[nodiscard]] double focal_px() const;
   /// Returns the rotation from the camera C (right, down, forward) to B.
-  [[nodiscard]] Mat3 R_BC() const;
+  [[nodiscard]] Mat3 camera_to_body() const;
 };
 
 /// A point on a surface.
@@ -79,8 +79,8 @@ class CameraFrame {
   StereoSpec spec_;
   double focal_, sin_grazing_;
   InertialState body_;
-  Mat3 R_CW_;
-  Vec3 rate_W_;
+  Mat3 to_camera_;
+  Vec3 rate_in_world_;
   std::vector<Box> near_;  ///< boxes within range
 };
 

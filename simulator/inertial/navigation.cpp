@@ -56,7 +56,7 @@ void Navigation::integrate(const Measured& measured, double h_s) {
   InertialSample sample = measured.sample;
   sample.rate -= odometry_->gyroscope_bias;
   sample.force -= odometry_->accelerometer_bias;
-  in_O_ = strapdown(in_O_, sample, h_s);
+  odometry_state_ = strapdown(odometry_state_, sample, h_s);
 }
 
 void Navigation::follow_offset(double h_s) {
@@ -84,7 +84,8 @@ void Navigation::receive(const Odometry& odometry) {
   }
   odometry_ = odometry;
   const Eigen::Vector4d& q = odometry.q_OB;
-  in_O_ = {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix(), odometry.p_OB, odometry.v_OB};
+  odometry_state_ = {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix(), odometry.p_OB,
+                     odometry.v_OB};
   while (!since_odometry_.empty() && since_odometry_.front().at <= odometry.at) since_odometry_.pop_front();
   UTime from = odometry.at;
   for (const Measured& measured : since_odometry_) {
@@ -100,8 +101,8 @@ std::vector<StereoExposure> Navigation::take_exposures() { return std::exchange(
 
 std::optional<InertialState> Navigation::believed() const {
   if (!odometry_) return std::nullopt;
-  const PoseInW pose = offset_->to_W(PoseInO{in_O_.R, in_O_.p});
-  return InertialState{pose.R, pose.p, offset_->to_W(VectorInO{in_O_.v}).xyz};
+  const PoseInW pose = offset_->to_W(PoseInO{odometry_state_.R, odometry_state_.p});
+  return InertialState{pose.R, pose.p, offset_->to_W(VectorInO{odometry_state_.v}).xyz};
 }
 
 Belief Navigation::belief_at(UTime t) const {
@@ -113,7 +114,7 @@ Belief Navigation::belief_at(UTime t) const {
 
 double Navigation::outstanding() const {
   if (!odometry_) return 0.0;
-  const PointInO here{in_O_.p};
+  const PointInO here{odometry_state_.p};
   return (offset_of(*odometry_).to_W(here).xyz - offset_->to_W(here).xyz).norm();
 }
 

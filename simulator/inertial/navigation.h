@@ -96,7 +96,7 @@ class Navigation {
   std::vector<StereoExposure> exposures_;
   std::deque<Measured> since_odometry_;
   std::optional<Odometry> odometry_;
-  InertialState in_O_;                    ///< at now_
+  InertialState odometry_state_;          ///< at now_
   std::optional<OdometryOffset> offset_;  ///< T
   std::deque<std::pair<UTime, Belief>> beliefs_;
 };

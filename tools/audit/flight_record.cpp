@@ -54,6 +54,10 @@ class Reading {
     collect(channels::kSetpoint, [](SenderMessages& messages, const UavState& s) { messages.setpoints.push_back(s); });
     collect(channels::kVehicleStatus,
             [](SenderMessages& messages, const VehicleStatus& s) { messages.statuses.push_back(s); });
+    log_.on(channels::kOdometry, [this](const Odometry& odometry, std::int64_t) {
+      const bool is_valid = odometry.state == EstimatorState::Tracking || odometry.state == EstimatorState::Blind;
+      if (is_valid) record_.odometry.push_back(odometry);
+    });
     collect(channels::kObstacleTruth, take_truth);
     collect(channels::kFlightResult, take_result);
     log_.on(channels::kDeclaredMotions, [this](const TrackSet& batch, std::int64_t) { declared(batch); });
@@ -81,6 +85,7 @@ class Reading {
     put_in_order(record_.estimates, [](const UavState& s) { return s.at; });
     put_in_order(record_.setpoints, [](const UavState& s) { return s.at; });
     put_in_order(record_.statuses, [](const VehicleStatus& s) { return s.at; });
+    put_in_order(record_.odometry, [](const Odometry& o) { return o.at; });
     std::ranges::stable_sort(record_.observations,
                              [](const ObservationSet& a, const ObservationSet& b) { return a.at < b.at; });
     for (auto& [id, history] : record_.truth) {

@@ -13,6 +13,7 @@
 #include "core/world/goal.h"
 #include "core/world/health.h"
 #include "core/world/horizon.h"
+#include "core/world/inertial.h"
 #include "core/world/observation.h"
 #include "core/world/region.h"
 #include "core/world/track.h"
@@ -55,6 +56,7 @@ struct FlightRecord {
   std::vector<UavState> states;
   std::vector<UavState> estimates, setpoints;     ///< UAV_STATE, SETPOINT
   std::vector<VehicleStatus> statuses;            ///< VEHICLE_STATUS
+  std::vector<Odometry> odometry;                 ///< ODOMETRY with a valid pose, of a vehicle that estimates its own
   std::map<std::int64_t, ObstacleHistory> truth;  ///< by obstacle
   /// Declared motions by obstacle: at each time the newest declaration; no overlaps, ascending.
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;

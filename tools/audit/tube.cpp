@@ -72,7 +72,8 @@ Check check_tube(const FlightRecord& record, Audit& audit) {
   const std::vector<HorizonRequest> requests = promises(record);
   const Window window = judged_window(record);
   TrackingExtremes worst;
-  for (const UavState& state : record.states) {
+  // A vehicle that estimates its pose promises its tube as it believes to fly; how far off it is, is another measure.
+  for (const UavState& state : record.odometry.empty() ? record.states : record.estimates) {
     if (!window.contains(state.at)) continue;
     const HorizonRequest* request = in_force(requests, state.at);
     if (request == nullptr) continue;

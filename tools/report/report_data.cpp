@@ -1,5 +1,6 @@
 #include "tools/report/report_data.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "core/base/percentiles.h"
 #include "core/world/body.h"
+#include "core/world/frames.h"
 #include "core/world/names.h"
 #include "core/world/replan_samples.h"
 #include "core/world/setting.h"
@@ -106,6 +108,28 @@ json path_of(const FlightRecord& record, const Audit& audit) {
   path["exposure"] = std::move(exposure);
   path["share"] = share;
   return path;
+}
+
+/// The error of ODOMETRY's position in W against VEHICLE_TRUTH, and the bound that it states: √(χ²(3, 0.99) λ_max(Σ)).
+json estimate_of(const FlightRecord& record) {
+  constexpr double kQuantile = 3.368;
+  const std::size_t share = std::max<std::size_t>(1, (record.odometry.size() + kMaxPathPoints - 1) / kMaxPathPoints);
+  Columns columns{"t", "error", "bound", "tracks", "rejected", "x", "y", "z"};
+  for (std::size_t k = 0; k < record.odometry.size(); k += share) {
+    const Odometry& odometry = record.odometry[k];
+    const auto after = std::ranges::lower_bound(record.states, odometry.at, {}, &UavState::at);
+    if (after == record.states.end()) break;
+    const double back = (after->at - odometry.at).seconds();
+    const Vec3 p = OdometryOffset{odometry.p_WO, odometry.yaw_WO, odometry.epoch}.to_W(PointInO{odometry.p_OB}).xyz;
+    Eigen::Matrix3d covariance;
+    for (int i = 0; i < 9; ++i) covariance(i / 3, i % 3) = odometry.pose_covariance[idx(6 * (i / 3) + i % 3)];
+    const double largest =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues()[2];
+    columns.add({record.seconds(odometry.at), (p - after->motion.p + back * after->motion.v).norm(),
+                 kQuantile * std::sqrt(std::max(largest, 0.0)), static_cast<double>(odometry.tracks),
+                 static_cast<double>(odometry.rejected), p.x(), p.y(), p.z()});
+  }
+  return columns.take();
 }
 
 json obstacles_of(const FlightRecord& record) {
@@ -290,6 +314,7 @@ json report_data(const FlightRecord& record, const Audit& audit, const FlightLau
   if (!launch.command.empty()) flight["command"] = launch.command;
   return {{"flight", flight},
           {"path", path_of(record, audit)},
+          {"estimate", estimate_of(record)},
           {"obstacles", obstacles_of(record)},
           {"regions", regions_of(record)},
           {"map", map_runs(record, kMaxMapRuns)},

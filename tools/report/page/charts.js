@@ -61,6 +61,26 @@ function tracking() {
     range: upTo(path.off.concat(path.tube)),
   });
 }
+/** A vehicle that estimates its own pose: how wrong it was, and how wrong it said it might be. */
+function estimation() {
+  const { t, error, bound, tracks, rejected } = data.estimate;
+  if (!t.length) return;
+  const goal = flight.goal, last = path.t.length - 1;
+  const off = goal ? Math.hypot(path.x[last] - goal[0], path.y[last] - goal[1], path.z[last] - goal[2]) : null;
+  const inside = error.filter((e, i) => e <= bound[i]).length / error.length;
+  const row = pair();
+  chart(card("Error of the estimate, m", `Distance of the estimated from the true position. Dashed: the bound that the estimator states at 99 %; it held ${percent(inside, 1)} of the time.${off == null ? "" : ` At the end the vehicle is ${fixed(off, 2)} m from its goal in truth.`}`, row), {
+    columns: [t, error, bound],
+    series: [{ label: "error", colour: "c1", fill: true, value: (u, y) => fixed(y, 3) },
+      { label: "stated bound", colour: "bad", dash: [6, 4], width: 1.2, value: (u, y) => fixed(y, 3) }],
+    range: upTo(error.concat(bound)),
+  });
+  chart(card("Features", "Tracks in use, and tracks that the estimator refused. With few tracks the error grows with the square of time.", row), {
+    columns: [t, tracks, rejected],
+    series: [{ label: "tracks", colour: "c3", fill: true, value: (u, y) => fixed(y, 0) }, { label: "refused", colour: "c5", value: (u, y) => fixed(y, 0) }],
+    range: upTo(tracks.concat([10])),
+  });
+}
 function clearances() {
   const row = pair();
   const closest = check("clearance").measures;

@@ -85,6 +85,7 @@ if (path.t.length) {
   map();
   motion();
   tracking();
+  estimation();
   clearances();
 } else {
   card("Flown path", "The log has no UAV_STATE.");
