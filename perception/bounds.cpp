@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tern {
 namespace {
@@ -16,7 +17,11 @@ constexpr double kBoundSigma = 0.01;
 constexpr double kPerBlock = 0.6;
 constexpr double kLeastBad = 0.2;  ///< share of votes
 constexpr int kLeastWhole = 2;     ///< votes
-constexpr int kLeastFitting = 6;   ///< rays
+/// A ray passes a bound if it leads at least this share of its way beyond it …
+constexpr float kLeastExcess = 0.2F;
+/// … and towards a bound if it starts within this share of the extent from it.
+constexpr float kBand = 0.3F;
+constexpr int kLeastFitting = 6;  ///< rays
 
 /// Bounds by number, as Sighting::bounds: −x, +x, −y, +y, −z, +z.
 constexpr std::size_t kBounds = 6;
@@ -92,20 +97,44 @@ class Surroundings {
     const float measured = picture_.depths()[pixel];
     if (!(measured > kNotMeasured)) return BoundSight::Occluded;
     const float margin = kFitSigmas * picture_.sensor().noise.sigma(depth) + kFitMargin;
-    if (measured >= picture_.range() || measured > depth + margin) return BoundSight::Whole;
+    if (measured >= picture_.range() && depth + margin >= picture_.range()) return BoundSight::Cut;
+    if (measured > depth + margin) return BoundSight::Whole;
     return measured < depth - margin ? BoundSight::Occluded : BoundSight::Touching;
   }
 
   void vote(const ClusterRays& rays, std::size_t k, int pixel, const Eigen::Vector3f& ray) {
     const float depth = continued(rays, k, ray);
+    const auto [bound, beyond] = passed_by(rays, k, ray * depth);
+    if (bound == kBounds) return;
     const BoundSight sight = judged(pixel, depth);
-    const float rounding = 1e-4F * depth;
+    ++votes[bound].of[idx(sight)];
+    if (sight == BoundSight::Whole) votes[bound].beyond = std::min(votes[bound].beyond, beyond);
+  }
+
+  /// The bound that the way from ray k's point to another one passes first, and how far out it ends. If it passes none,
+  /// the bound that it leads to, and infinity.
+  [[nodiscard]] std::pair<std::size_t, float> passed_by(const ClusterRays& rays, std::size_t k,
+                                                        const Eigen::Vector3f& to) const {
+    std::array<float, kBounds> from{}, move{};  // times side
     for (std::size_t b = 0; b < kBounds; ++b) {
-      const float at = static_cast<float>(kSide[b]) * ray[static_cast<Eigen::Index>(b / 2)] * depth;
-      if (at <= outermost[b] + rounding) continue;
-      ++votes[b].of[idx(sight)];
-      if (sight == BoundSight::Whole) votes[b].beyond = std::min(votes[b].beyond, at);
+      from[b] = static_cast<float>(kSide[b]) * rays.ray[b / 2][k] * rays.fitted[k];
+      move[b] = static_cast<float>(kSide[b]) * to[static_cast<Eigen::Index>(b / 2)] - from[b];
     }
+    const float longest = *std::max_element(move.begin(), move.end());
+    std::pair<std::size_t, float> passed{kBounds, kInfinity};
+    float earliest = kInfinity;
+    for (std::size_t b = 0; b < kBounds; ++b) {
+      const float inside = outermost[b] - from[b];
+      if (move[b] - inside <= kLeastExcess * longest || inside >= earliest * move[b]) continue;
+      earliest = inside / move[b];
+      passed = {b, from[b] + move[b]};
+    }
+    if (passed.first < kBounds) return passed;
+    for (std::size_t b = 0; b < kBounds; ++b) {
+      const float extent = outermost[b] + outermost[b ^ 1U];
+      if (move[b] >= longest && outermost[b] - from[b] < kBand * extent) return {b, kInfinity};
+    }
+    return passed;
   }
 
   const DepthPicture& picture_;
@@ -122,16 +151,35 @@ struct Bound {
   BoundSight sight = BoundSight::Unseen;
 };
 
-Bound face_bound(const DepthPicture& picture, const Corner& corner, std::size_t axis, const Votes& votes) {
+bool is_bad(BoundSight sight) {
+  return sight == BoundSight::Occluded || sight == BoundSight::Cut || sight == BoundSight::Touching;
+}
+
+/// Whole if the ends of a face along the other axes are seen; else the reason why not.
+BoundSight beside(const std::array<Votes, kBounds>& votes, std::size_t axis) {
+  for (std::size_t b = 0; b < kBounds; ++b) {
+    const BoundSight verdict = votes[b].verdict();
+    if (b / 2 != axis && is_bad(verdict)) return verdict;
+    if (b / 2 != axis && verdict == BoundSight::Unseen) return BoundSight::Occluded;
+  }
+  return BoundSight::Whole;
+}
+
+Bound face_bound(const DepthPicture& picture, const Corner& corner, std::size_t axis,
+                 const std::array<Votes, kBounds>& votes, std::size_t b, double depth) {
+  const double pixel = picture.shape().pixel_size() * depth;
   const int block = picture.sensor().noise.block;
   const double spread = block > 1 ? kPerBlock * block : 1.0;
   Bound bound;
   bound.at = static_cast<double>(corner.side[axis]) * static_cast<double>(corner.plane[axis]);
   bound.sigma = spread * corner.sigma[axis] + kBoundSigma;
-  if (corner.thin) bound.sigma += 0.5 * picture.shape().pixel_size() * std::abs(bound.at);
-  const BoundSight verdict = votes.verdict();
-  const bool bad = verdict == BoundSight::Occluded || verdict == BoundSight::Cut || verdict == BoundSight::Touching;
-  bound.sight = bad ? verdict : BoundSight::Face;
+  if (corner.weak[axis]) bound.sigma += 0.5 * pixel;
+  const double sigma = picture.sensor().noise.sigma(static_cast<float>(depth));
+  if (depth + 2.0 * sigma > picture.range()) bound.sigma += sigma;
+  bound.sight = BoundSight::Face;
+  for (const BoundSight verdict : {votes[b].verdict(), corner.weak[axis] ? beside(votes, axis) : BoundSight::Whole}) {
+    if (is_bad(verdict)) bound.sight = verdict;
+  }
   return bound;
 }
 
@@ -140,7 +188,7 @@ Bound end_bound(const Votes& votes, double outermost, double pixel, double face_
   bound.sight = votes.verdict();
   bound.at = outermost;
   double gap = pixel;
-  if (bound.sight == BoundSight::Whole) {
+  if (bound.sight == BoundSight::Whole && votes.beyond < kInfinity) {
     gap = static_cast<double>(votes.beyond) - outermost;
     bound.at += 0.5 * gap;
   }
@@ -200,7 +248,7 @@ Sighting bounds_of(const DepthPicture& picture, const Clusters& clusters, int g,
   for (std::size_t b = 0; b < kBounds; ++b) {
     const bool is_face = corner.side[b / 2] == kSide[b] && corner.rays[b / 2] > 0;
     const double outermost = around.outermost[b];
-    const Bound bound = is_face ? face_bound(picture, corner, b / 2, around.votes[b])
+    const Bound bound = is_face ? face_bound(picture, corner, b / 2, around.votes, b, depth / fitting)
                                 : end_bound(around.votes[b], outermost, pixel, relative * std::abs(outermost));
     set_bound(sighting, b, bound, picture.pose().position);
   }

@@ -24,7 +24,8 @@ struct Corner {
   std::array<float, 3> plane{};  ///< the face's coordinate, m
   std::array<float, 3> sigma{};  ///< its standard deviation for white noise, m
   std::array<int, 3> rays{};     ///< how many rays are on the face
-  bool thin = false;             ///< the only face is one pixel wide, so it may be another face as well
+  std::array<bool, 3> weak{};    ///< the face is one pixel wide, has few rays, or they graze it
+  int fitting = 0;               ///< rays on a face
 
   [[nodiscard]] int faces() const { return (side[0] != 0 ? 1 : 0) + (side[1] != 0 ? 1 : 0) + (side[2] != 0 ? 1 : 0); }
 };
@@ -54,19 +55,22 @@ class ClusterRays {
 ///     z_i(p) = max over facing axes a of p_a / d_ia,
 /// as a ray enters a box through the last of its front planes. Starting with p at the quantiles, each turn gives every
 /// ray to the axis of its maximum. Then p_a is the mean of z_i d_ia, weighted by 1/(σ_i d_ia)². Rays that are off by
-/// more than a gate are left out; the gate narrows to 3σ + 2 cm. So of two surfaces behind each other one is fitted.
+/// more than a gate are left out; the gate narrows to 2σ + 2 cm. So of two surfaces behind each other the near one is fitted.
 ///
-/// A face must be supported: by max(6, 4 %) rays, by two pixels each way, and by rays that fit no other face. Without
-/// that the cut end of a beam looks like a face. If no face is supported, the one that is best is kept as `thin`.
+/// A face whose rays fit another face as well is left out: the cut end of a beam would look like a face. A face is weak
+/// unless it has max(12, 4 %) rays, two pixels each way, and rays that meet it at more than kGrazing pixels.
+///
+/// If less than kGoodShare of the rays fit, the cluster may be several objects. Then the fit starts again with the
+/// nearest parts of the cluster, and the fit with the most rays is returned.
 class CornerFitter {
  public:
   Corner fit(const DepthPicture& picture, ClusterRays& rays);
 
  private:
-  void start(const ClusterRays& rays, Corner& corner);
-  void turn(ClusterRays& rays, Corner& corner, float gate);
-  [[nodiscard]] int unsupported(const DepthPicture& picture, const ClusterRays& rays, const Corner& corner) const;
-  [[nodiscard]] bool is_needed(const ClusterRays& rays, const Corner& corner, int axis, double block) const;
+  /// Starts with the quantiles of all rays up to a depth.
+  [[nodiscard]] Corner start(const ClusterRays& rays, float most_depth);
+  [[nodiscard]] Corner fit_from(Corner corner, ClusterRays& rays, int block);
+  [[nodiscard]] float depth_quantile(const ClusterRays& rays, double share);
 
   std::vector<float> sorted_;
 };

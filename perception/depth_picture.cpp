@@ -101,8 +101,12 @@ RayGrid::RayGrid(const DepthSensor& sensor) : sensor_(checked(sensor)), rays_(se
 DepthPicture::DepthPicture(std::shared_ptr<const RayGrid> grid) : grid_(std::move(grid)) { move_to({}); }
 
 void DepthPicture::move_to(const SensorPose& pose) {
-  pose_ = pose;
+  set_pose(pose);
   depths_.setConstant(shape().pixels(), range());
+}
+
+void DepthPicture::set_pose(const SensorPose& pose) {
+  pose_ = pose;
   const Eigen::Matrix3f R_WC = pose.q_WC.toRotationMatrix().cast<float>();
   rays_W_.resize(shape().pixels(), 3);
   const Eigen::ArrayX3f& rays = grid_->rays();

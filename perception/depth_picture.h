@@ -100,7 +100,9 @@ class DepthPicture {
   /// A picture at the origin without a return.
   explicit DepthPicture(std::shared_ptr<const RayGrid> grid);
 
-  /// Sets the pose, and every depth to `no return`. O(pixels).
+  /// Sets the pose and keeps the depths: the picture as seen from where the vehicle believes to be. O(pixels).
+  void set_pose(const SensorPose& pose);
+  /// Sets the pose, and every depth to `no return`.
   void move_to(const SensorPose& pose);
 
   [[nodiscard]] const RayGrid& grid() const { return *grid_; }

@@ -13,6 +13,7 @@ namespace tern {
 namespace {
 
 constexpr double kLeastPeeledShare = 0.08;
+constexpr auto kNoFace = ClusterRays::kNoFace;
 
 }  // namespace
 
@@ -22,12 +23,14 @@ struct Detector::Workspace {
   ClusterRays rays;
   SlabTest slabs;
   std::vector<std::uint8_t> is_known;
+  std::vector<std::int8_t> fits;  ///< of the present cluster's pixels: 1, −1; of all others 0
   std::vector<int> pixels;
   std::vector<Sighting> sightings;
 
   void mark_boxes(const DepthPicture& picture, std::span<const Box> boxes);
   void mark_ground(const DepthPicture& picture, double ground_z);
   void take_group(const DepthPicture& picture, int g);
+  void drop_lonely(const DepthPicture& picture);
   void peel(const DepthPicture& picture, int g);
 };
 
@@ -58,13 +61,32 @@ void Detector::Workspace::mark_ground(const DepthPicture& picture, double ground
   }
 }
 
+/// Gives each fitting ray to the others if most rays around it do not fit: noise puts it on a face that is not its own.
+void Detector::Workspace::drop_lonely(const DepthPicture& picture) {
+  const PictureShape& shape = picture.shape();
+  for (std::size_t k = 0; k < rays.pixel.size(); ++k) fits[idx(rays.pixel[k])] = rays.face[k] == kNoFace ? -1 : 1;
+  for (std::size_t k = 0; k < rays.pixel.size(); ++k) {
+    const int v = rays.pixel[k] / shape.columns, u = rays.pixel[k] - v * shape.columns;
+    int around = 0;
+    for (int dv = -1; dv <= 1; ++dv) {
+      for (int du = -1; du <= 1; ++du) {
+        const int other = neighbour(shape, u + du, v + dv);
+        if (other >= 0 && other != rays.pixel[k]) around += fits[idx(other)];
+      }
+    }
+    if (around < 0) rays.face[k] = kNoFace;
+  }
+  for (const int pixel : rays.pixel) fits[idx(pixel)] = 0;
+}
+
 /// Splits off the rays that do not fit, if they are enough to be another object and leave one behind.
 void Detector::Workspace::peel(const DepthPicture& picture, int g) {
   const int level = clusters.group(g).level;
   if (level >= kMostPeelings) return;
+  drop_lonely(picture);
   pixels.clear();
   for (std::size_t k = 0; k < rays.depth.size(); ++k) {
-    if (rays.face[k] == ClusterRays::kNoFace) pixels.push_back(rays.pixel[k]);
+    if (rays.face[k] == kNoFace) pixels.push_back(rays.pixel[k]);
   }
   const int misfits = static_cast<int>(pixels.size());
   const bool is_another = misfits >= std::max(kLeastPixels, static_cast<int>(kLeastPeeledShare * rays.count()));
@@ -81,10 +103,13 @@ void Detector::Workspace::take_group(const DepthPicture& picture, int g) {
 
 Detector::Detector() : work_(std::make_unique<Workspace>()) {}
 Detector::~Detector() = default;
+Detector::Detector(Detector&&) noexcept = default;
+Detector& Detector::operator=(Detector&&) noexcept = default;
 
 const std::vector<Sighting>& Detector::detect(const DepthPicture& picture, const KnownSurroundings& surroundings) {
   Workspace& work = *work_;
   work.is_known.assign(idx(picture.shape().pixels()), 0);
+  work.fits.assign(idx(picture.shape().pixels()), 0);
   work.mark_boxes(picture, surroundings.boxes);
   if (surroundings.ground_z) work.mark_ground(picture, *surroundings.ground_z);
   work.pixels.clear();

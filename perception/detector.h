@@ -40,8 +40,8 @@ class Detector {
  public:
   Detector();
   ~Detector();
-  Detector(const Detector&) = delete;
-  Detector& operator=(const Detector&) = delete;
+  Detector(Detector&&) noexcept;
+  Detector& operator=(Detector&&) noexcept;
 
   /// Returns the sightings of a picture: by their first pixel, peeled ones last. Valid until the next call.
   const std::vector<Sighting>& detect(const DepthPicture& picture, const KnownSurroundings& surroundings);

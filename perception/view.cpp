@@ -11,12 +11,10 @@ constexpr double kUnit = 0.01;  ///< m
 /// Depths of longer ranges have a larger unit, so that they stay below kFarDepth.
 constexpr double kMostUnits = 32'000.0;
 
-int cells(int pixels, int cell) { return (pixels + cell - 1) / cell; }
-
 /// The edges of the cells on both sides of the axis, as pixels: from −½ to cells · cell − ½.
 void set_fields(SensorView& view, const PictureShape& shape, int cell) {
-  view.columns = cells(shape.columns, cell);
-  view.rows = cells(shape.rows, cell);
+  view.columns = shape.columns / cell;
+  view.rows = shape.rows / cell;
   const double left = (shape.cx + 0.5) / shape.fx, right = (view.columns * cell - 0.5 - shape.cx) / shape.fx;
   const double up = (shape.cy + 0.5) / shape.fy, down = (view.rows * cell - 0.5 - shape.cy) / shape.fy;
   const bool pinhole = shape.kind == PictureKind::Pinhole;
@@ -49,14 +47,13 @@ SensorView view_of(const DepthPicture& picture) {
   view.depth_sigma_per_square_m = sensor.noise.per_m;
   view.unit_m = std::max(kUnit, sensor.range_m / kMostUnits);
   int cell = 1;
-  while (cells(shape.columns, cell) * cells(shape.rows, cell) > kMaxViewCells) ++cell;
+  while ((shape.columns / cell) * (shape.rows / cell) > kMaxViewCells) ++cell;
   set_fields(view, shape, cell);
   view.depths.assign(idx(view.rows * view.columns), kFarDepth);
   for (int v = 0; v < view.rows * cell; ++v) {
     for (int u = 0; u < view.columns * cell; ++u) {
       std::int16_t& least = view.depths[idx(v / cell * view.columns + u / cell)];
-      const bool inside = u < shape.columns && v < shape.rows;
-      const float depth = inside ? picture.depths()[v * shape.columns + u] : kNotMeasured;
+      const float depth = picture.depths()[v * shape.columns + u];
       if (depth >= picture.range()) continue;
       least = std::min(least, static_cast<std::int16_t>(depth / view.unit_m));
     }

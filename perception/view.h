@@ -9,8 +9,8 @@
 
 namespace tern {
 
-/// Returns the view of a picture, in the smallest square cells of pixels of which at most kMaxViewCells are needed. A
-/// cell that reaches beyond the picture is blind.
+/// Returns the view of a picture, in the smallest square cells of pixels of which at most kMaxViewCells are needed.
+/// Columns and rows beyond the last whole cell are left out, so they count as out of view.
 SensorView view_of(const DepthPicture& picture);
 
 /// How a point of W was looked at.

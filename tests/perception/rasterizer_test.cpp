@@ -25,7 +25,7 @@ DepthSensor camera() {
 
 DepthSensor lidar() {
   DepthSensor sensor;
-  sensor.shape = lidar_shape(2.0 * kPi, -7.0 * kPi / 180.0, 52.0 * kPi / 180.0, 360, 59);
+  sensor.shape = lidar_shape(2.0 * kPi, -7.5 * kPi / 180.0, 52.5 * kPi / 180.0, 360, 60);
   sensor.range_m = 20.0;
   return sensor;
 }
