@@ -21,9 +21,10 @@ constexpr const char* kExamples[] = {
     "world: {obstacles: [{centre: [5, 0, 1]}], recorded: [{file: a.txt, columns: 6, z_column: 4}]}\n"
     "uav: {body: {radius: 0.1}, flight_box: {min: [-9, -9, 0], max: [99, 9, 9]}}\n"
     "semantics: {regions: [{name: a, class: texture, box: {min: [0, 0, 0], max: [1, 1, 1]}}]}\n"
-    "simulator: {sensor: {mode: noisy}, vehicle: quadrotor, estimation: vio}\n"
+    "simulator: {sensor: {mode: noisy}, sensors: [{type: camera}], vehicle: quadrotor, estimation: vio}\n"
     "mapper: {extents: {min: [0, 0, 0], max: [1, 1, 1]}, sources: [{file: town.las}]}\n",
     "world: {obstacles: [{motion: trefoil, centre: [5, 0, 1]}]}\n"
+    "simulator: {sensors: [{type: lidar}]}\n"
     "uav: {body: {half_extents: [0.1, 0.1, 0.1]}, dynamics: {thrust_min: 2, thrust_max: 39, tilt_max: 70, "
     "body_rate_max: 900}}\n"
     "semantics: {regions: [{name: a, class: texture, ball: {centre: [0, 0, 0], radius: 1}}]}\n",
@@ -34,7 +35,8 @@ constexpr const char* kExamples[] = {
     "world: {obstacles: [{motion: linear, centre: [5, 0, 1], velocity: [0, 1, 0]}], recorded: [{file: a.txt, columns: "
     "6, z_column: 4, copies: 2, within: {min: [0, 0, 0], max: [9, 9, 9]}}]}\n"
     "uav: {routes: [{from: [0, 0, 1], to: [9, 0, 1]}]}\n",
-    "world: {obstacles: [{motion: waypoints, points: [[0, 5, 0, 1]]}]}\n"};
+    "world: {obstacles: [{motion: waypoints, points: [[0, 5, 0, 1]]}]}\n"
+    "simulator: {sensors: [{type: near}]}\n"};
 
 /// Tables whose keys the user names: every value is like the table's default values.
 constexpr std::string_view kOpenTables[] = {"semantics.classes", "semantics.lambdas", "mapper.classes",

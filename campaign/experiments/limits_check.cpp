@@ -2,18 +2,44 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <variant>
+
 namespace tern {
+namespace {
+
+/// Rate and latency of a sensor.
+struct Timing {
+  double rate_hz, latency_s;
+  [[nodiscard]] double age_s() const { return latency_s + 0.5 / rate_hz; }
+};
+
+/// The timing of the sensor whose newest frame is freshest; nullopt without sensors.
+std::optional<Timing> freshest(const SimulatorConfig& simulator) {
+  std::optional<Timing> best;
+  const auto consider = [&](const auto& sensor) {
+    const Timing timing{sensor.rate_hz, sensor.latency_s};
+    if (!best || timing.age_s() < best->age_s()) best = timing;
+  };
+  if (simulator.sensor.present) consider(simulator.sensor);
+  for (const auto& sensor : simulator.sensors) std::visit(consider, sensor);
+  return best;
+}
+
+}  // namespace
 
 std::string late_sensor(const SimulatorConfig& simulator, const PredictorConfig& predictor,
                         const PlannerConfig& planner) {
   const bool is_declared = simulator.declare && predictor.model != PredictorModel::Detections;
-  if (is_declared || !simulator.sensor.present) return "";
-  const double age_s = simulator.sensor.latency_s + 0.5 / simulator.sensor.rate_hz + 0.5 * predictor.period().seconds();
+  const std::optional<Timing> sensor = freshest(simulator);
+  if (is_declared || !sensor) return "";
+  const double age_s = sensor->age_s() + 0.5 * predictor.period().seconds();
   if (age_s <= planner.stale_after_s) return "";
   return fmt::format(
-      "the newest detection is {:.2f} s old on average (simulator.sensor: latency_s {:g}, rate_hz {:g}), and the "
+      "the newest detection is {:.2f} s old on average (simulator.{}: latency_s {:g}, rate_hz {:g}), and the "
       "planner answers STALE_WORLD beyond planner.stale_after_s, {:g} s: a faster sensor, or a larger stale_after_s",
-      age_s, simulator.sensor.latency_s, simulator.sensor.rate_hz, planner.stale_after_s);
+      age_s, simulator.sensors.empty() ? "sensor" : "sensors", sensor->latency_s, sensor->rate_hz,
+      planner.stale_after_s);
 }
 
 std::vector<std::string> excess_thrust(const Limits& limits, const SimulatorConfig& simulator) {

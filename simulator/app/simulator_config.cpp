@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include "simulator/app/read_sensors.h"
+
 namespace tern {
 namespace {
-
-/// Smallest rate of a periodic event, Hz: longer periods could overflow times.
-constexpr double kMinRate = 1e-3;
 
 /// Splits a text at spaces and commas.
 std::vector<std::string> split_words(std::string text) {
@@ -18,31 +17,6 @@ std::vector<std::string> split_words(std::string text) {
   std::vector<std::string> words;
   for (std::string word; stream >> word;) words.push_back(word);
   return words;
-}
-
-SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
-  SensorConfig sensor;
-  sensor.seed = seed;
-  sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kMinRate, 100.0), "frames per second");
-  const std::string mode = section.choice("mode", "truth", {"none", "truth", "noisy"},
-                                          "`none`: no sensor; `truth`: all obstacles, without noise, with ids; "
-                                          "`noisy`: by the next keys, which only `noisy` has");
-  sensor.present = mode != "none";
-  if (mode == "noisy") {
-    const SensorConfig noisy = perception_only(seed);
-    sensor.range_m = section.number(
-        "range_m", noisy.range_m, Range::at_least(0.0, 1e5),
-        "boxes whose nearest point is within this are detected, also behind others, m; 0: without limit");
-    sensor.sigma_m = Vec3::Constant(section.number("sigma_m", noisy.sigma_m.x(), Range::at_least(0.0, 100.0),
-                                                   "standard deviation of the position per axis, m"));
-    sensor.latency_s =
-        section.number("latency_s", noisy.latency_s, Range::at_least(0.0, 2.0), "delay of a frame after its time, s");
-    sensor.dropout =
-        section.number("dropout", noisy.dropout, Range::at_least(0.0, 1.0), "probability that a detection is missing");
-    sensor.track_ids = section.flag("ids", noisy.track_ids, "detections have the obstacle's id");
-  }
-  section.finish();
-  return sensor;
 }
 
 void read_vehicle(ConfigSection& section, SimulatorConfig& config) {
@@ -135,7 +109,7 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
                                   "publish the scenario's goal with id 1; false: another process publishes the GOAL");
   config.min_flight_s = section.number("min_flight_s", config.min_flight_s, Range::at_least(0.0, 1e5),
                                        "earliest arrival, world time, s: for a vehicle that guards its place");
-  config.sensor = read_sensor(section.section("sensor"), seed);
+  read_sensors(section, config, seed);
   read_vehicle(section, config);
   read_estimation(section, config);
   section.finish();

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "runtime/config.h"
 #include "simulator/app/start_gate.h"
 #include "simulator/inertial/track_simulator.h"
+#include "simulator/sensors/depth_sensor.h"
 #include "simulator/sensors/sensor.h"
 #include "simulator/vehicle/quadrotor_vehicle.h"
 
@@ -33,6 +35,10 @@ struct SimulatorConfig {
   bool send_goal = true;      ///< publish the scenario's goal; false: the mission waits for a GOAL of another process
   double min_flight_s = 0.0;  ///< earliest arrival, world time, s, ≥ 0: for a vehicle that guards a place
   SensorConfig sensor;
+  /// The vehicle's sensors; they replace `sensor`. A DepthSensorConfig is a camera or a lidar.
+  std::vector<std::variant<SensorConfig, DepthSensorConfig>> sensors;
+  std::optional<double> ground_z;            ///< W, m; nullopt: cameras and lidars see no ground
+  std::uint64_t seed = 1;                    ///< of the sensors' noise
   std::optional<QuadrotorFlight> quadrotor;  ///< nullopt: the perfect vehicle, or an external one
   bool external = false;                     ///< other processes fly the vehicle and publish its state
   std::optional<VioConfig> vio;  ///< the vehicle flies on the estimate of tern-estimator; nullopt: by the model's own

@@ -65,6 +65,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
       vehicle_(std::move(vehicle)),
       referee_(scenario, std::move(world), vehicle_->judged_limits()),
       broadcast_(bus, referee_.world(), config, bus.clock().now()),
+      sensors_(bus, config, bus.clock().now()),
       last_step_(bus.clock().now()),
       next_state_(last_step_),
       next_truth_(next_state_),
@@ -97,7 +98,8 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
 }
 
 UTime SimulatorNode::next_wakeup() const {
-  return std::min({next_state_, next_goal_, next_status_, next_result_, broadcast_.next_wakeup()});
+  return std::min(
+      {next_state_, next_goal_, next_status_, next_result_, broadcast_.next_wakeup(), sensors_.next_wakeup()});
 }
 
 void SimulatorNode::subscribe_to_external_vehicle() {
@@ -130,6 +132,7 @@ void SimulatorNode::step(UTime now) {
   }
   if (due) next_state_ = next_tick(next_state_, kStatePeriod, now);
   broadcast_.step(now, vehicle_->truth(), vehicle_->navigation());
+  sensors_.step(now, *vehicle_, [this](UTime t) -> const World& { return broadcast_.world_at(t); });
   if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
     // Plans refer to the first GOAL, so the log must contain it.
@@ -156,6 +159,7 @@ void SimulatorNode::wait_for_processes(UTime now) {
     world_zero_ = whole_ms(now + (config_.declare ? kCountdown : kLookAroundTime));
     next_status_ = std::min(next_status_, *world_zero_);
     broadcast_.start(*world_zero_, now);
+    sensors_.start(*world_zero_, now);
     log::info("all processes are ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
     const double from_s = config_.declare ? 0.0 : -kLookAroundTime.seconds();
     for (const std::string& name : referee_.passing_the_start(from_s)) {
@@ -184,7 +188,9 @@ void SimulatorNode::on_map(const MapChunk& chunk) {
   map_progress_.add(chunk);
   give_up_at_ = std::max(give_up_at_, begun_ + config_.wait + map_progress_.rotation() * 2);
   if (!*complete) return;
-  if (const auto taken = referee_.set_map(cover_with_boxes(map_.take(), false)); !taken) {
+  std::vector<Box> occupied = cover_with_boxes(map_.take(), false);
+  sensors_.set_map(occupied);
+  if (const auto taken = referee_.set_map(std::move(occupied)); !taken) {
     return log::error("map {:016x} is not judged: {}", chunk.version, taken.error().message);
   }
   needs_map_ = false;

@@ -11,6 +11,7 @@
 #include "core/world/map_progress.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
+#include "simulator/app/sensor_broadcast.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/start_gate.h"
 #include "simulator/app/vio_sensors.h"
@@ -100,6 +101,7 @@ class SimulatorNode final : public Node {
   MapProgress map_progress_;
   bool needs_map_ = false;    ///< the flight waits for the mapper's map, for the referee
   WorldBroadcast broadcast_;  // of the referee's world
+  SensorBroadcast sensors_;
   std::optional<VioSensors> vio_;
   std::optional<UTime> believes_arrived_since_;
   std::optional<Goal> goal_;

@@ -79,14 +79,12 @@ std::vector<Duration> appearances_of(const World& world) {
   return times;
 }
 
-/// Moves a frame from the world as it is to the world as it is believed to be. Boxes keep their axes: the yaw of a
-/// belief is off by less than a degree.
+}  // namespace
+
 void move_to(ObservationSet& set, const Belief& belief) {
   set.sensor_position = belief.of(set.sensor_position);
   for (Detection& detection : set.detections) detection.position = belief.of(detection.position);
 }
-
-}  // namespace
 
 World world_of(const Scenario& scenario) {
   const std::string data = data_folder(scenario.file, std::getenv("TERN_DATA"));
@@ -94,6 +92,12 @@ World world_of(const Scenario& scenario) {
 }
 
 World flyable_world_of(const Scenario& scenario, const SimulatorConfig& config) {
+  if (!config.sensors.empty() && config.ground_z && *config.ground_z > scenario.uav.start.z()) {
+    throw ConfigError(
+        fmt::format("{}: simulator.ground_z: {} m is above uav.start, at {} m: the sensors would see nothing. Set "
+                    "simulator.ground_z, or simulator.ground: none",
+                    scenario.file, *config.ground_z, scenario.uav.start.z()));
+  }
   World world = world_of(scenario);
   const std::string why = config.declare ? undeclarable(world) : "";
   if (!why.empty()) throw ConfigError(scenario.file + ": world: " + why);
@@ -152,7 +156,7 @@ void WorldBroadcast::publish_observations(UTime now, const MotionHistory& uav, c
   for (; frame_arrives(config_.sensor, frames_zero_, frame_) <= now; ++frame_) {
     const UTime taken = frame_taken(config_.sensor, frames_zero_, frame_);
     const Vec3 eye = uav.sample(std::min(taken, uav.end())).p;
-    const World& seen = is_before_world(taken) ? before_ : world_;
+    const World& seen = world_at(taken);
     ObservationSet set = observe(seen, config_.sensor, frames_zero_, frame_, eye);
     if (navigation != nullptr) move_to(set, navigation->belief_at(taken));
     bus_.publish(channels::kObstacleObservations, std::move(set));

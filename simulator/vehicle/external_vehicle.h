@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/world/scenario.h"
+#include "simulator/vehicle/attitude.h"
 #include "simulator/vehicle/vehicle.h"
 
 namespace tern {
@@ -24,6 +25,8 @@ class ExternalVehicle final : public Vehicle {
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return truth_; }
   [[nodiscard]] UavState true_state() const override { return newest_; }
+  /// The attitude of a multirotor with the newest state's acceleration and heading.
+  [[nodiscard]] Eigen::Quaterniond attitude() const override { return attitude_of(newest_.motion.a, newest_.yaw); }
   [[nodiscard]] UavState estimate(UTime) override { return newest_; }
   [[nodiscard]] VehicleStatus status(UTime now) const override;
   [[nodiscard]] Limits judged_limits() const override;

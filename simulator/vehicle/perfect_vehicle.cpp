@@ -1,5 +1,7 @@
 #include "simulator/vehicle/perfect_vehicle.h"
 
+#include "simulator/vehicle/attitude.h"
+
 namespace tern {
 namespace {
 
@@ -22,6 +24,11 @@ UavState PerfectVehicle::state_at(UTime t) const {
   state.motion = command_.sample(t);
   state.yaw = command_.yaw();
   return state;
+}
+
+Eigen::Quaterniond PerfectVehicle::attitude() const {
+  const UavState state = true_state();
+  return attitude_of(state.motion.a, state.yaw);
 }
 
 VehicleStatus PerfectVehicle::status(UTime now) const {

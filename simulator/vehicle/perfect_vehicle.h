@@ -20,6 +20,7 @@ class PerfectVehicle final : public Vehicle {
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return command_.settled(); }
   [[nodiscard]] UavState true_state() const override { return state_at(truth().end()); }
+  [[nodiscard]] Eigen::Quaterniond attitude() const override;
   /// Returns the state at `now` on the committed trajectory, or the state at the newest setpoint if the command brakes.
   [[nodiscard]] UavState estimate(UTime now) override {
     return state_at(command_.is_committed() ? now : truth().end());

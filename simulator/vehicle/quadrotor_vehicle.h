@@ -44,6 +44,7 @@ class QuadrotorVehicle final : public Vehicle {
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return truth_; }
   [[nodiscard]] UavState true_state() const override;
+  [[nodiscard]] Eigen::Quaterniond attitude() const override { return model_.truth().q; }
   [[nodiscard]] UavState estimate(UTime now) override;
   [[nodiscard]] VehicleStatus status(UTime now) const override;
   [[nodiscard]] Limits judged_limits() const override;

@@ -37,6 +37,8 @@ class Vehicle {
   [[nodiscard]] virtual const MotionHistory& truth() const = 0;
   /// The true state at truth().end(), with the heading: VEHICLE_TRUTH.
   [[nodiscard]] virtual UavState true_state() const = 0;
+  /// The body's true attitude at truth().end(): the rotation from B to W.
+  [[nodiscard]] virtual Eigen::Quaterniond attitude() const = 0;
   /// The estimated state at `now`, or earlier by the latency (see `at`): UAV_STATE.
   [[nodiscard]] virtual UavState estimate(UTime now) = 0;
   /// VEHICLE_STATUS. Before world zero the node replaces `following` by false.
