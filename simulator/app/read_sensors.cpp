@@ -111,8 +111,8 @@ DepthSensorConfig read_depth_sensor(ConfigSection& section, bool is_camera) {
 std::variant<SensorConfig, DepthSensorConfig> read_listed(ConfigSection section, std::uint64_t seed) {
   const std::string type =
       section.choice("type", "camera", {"camera", "lidar", "near", "truth"},
-                     "`camera`, `lidar`: depth pictures, in which near things hide far ones; `near`: whole boxes, also "
-                     "behind others, by the keys of `sensor`; `truth`: all obstacles, without noise");
+                     "`camera`, `lidar`: depth pictures, in which near things hide far ones; `near`: as `mode: noisy` "
+                     "of `sensor`; `truth`: as its `mode: truth`");
   if (type == "camera" || type == "lidar") return read_depth_sensor(section, type == "camera");
   SensorConfig sensor;
   sensor.seed = seed;
