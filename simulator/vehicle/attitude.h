@@ -9,7 +9,7 @@ namespace tern {
 /// z. B's x lies above the heading.
 /// @param acceleration  W, m/s²
 /// @param yaw           the heading, rad
-/// @return the level attitude if there is no thrust, or if it points along the heading
+/// @return the level attitude if the thrust does not point upwards: the vehicle is taken to stay upright
 Eigen::Quaterniond attitude_of(const Vec3& acceleration, double yaw);
 
 }  // namespace tern
