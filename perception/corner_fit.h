@@ -55,7 +55,8 @@ class ClusterRays {
 ///     z_i(p) = max over facing axes a of p_a / d_ia,
 /// as a ray enters a box through the last of its front planes. Starting with p at the quantiles, each turn gives every
 /// ray to the axis of its maximum. Then p_a is the mean of z_i d_ia, weighted by 1/(σ_i d_ia)². Rays that are off by
-/// more than a gate are left out; the gate narrows to 2σ + 2 cm. So of two surfaces behind each other the near one is fitted.
+/// more than a gate are left out; the gate narrows to 2σ + 2 cm. So of two surfaces behind each other the near one is
+/// fitted.
 ///
 /// A face whose rays fit another face as well is left out: the cut end of a beam would look like a face. A face is weak
 /// unless it has max(12, 4 %) rays, two pixels each way, and rays that meet it at more than kGrazing pixels.

@@ -62,8 +62,8 @@ FlightInputs inputs_of(const FlightOptions& options) {
   inputs.overrides = options.settings;
   if (!options.count.empty()) inputs.overrides.push_back("world.count=" + options.count);
   if (options.oracle) {
-    inputs.overrides.insert(inputs.overrides.end(), {"simulator.declare=true", "simulator.sensor={mode: truth}",
-                                                     "simulator.sensors=[]"});
+    inputs.overrides.insert(inputs.overrides.end(),
+                            {"simulator.declare=true", "simulator.sensor={mode: truth}", "simulator.sensors=[]"});
   }
   inputs.charge = options.charge == "cpu" ? Charge::Cpu : Charge::Counts;
   for (const std::string& setting : options.settings) {

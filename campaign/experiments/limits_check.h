@@ -13,9 +13,9 @@ namespace tern {
 
 /// Returns the reason why most requests would be answered STALE_WORLD, with both ages; "" if the world is fresh enough.
 ///
-/// Without declared motions the newest input of a request is a frame, of the sensor whose frames are freshest. It is latency_s old when it arrives. On average
-/// half a period of the sensor and half of the predictor pass until a request uses it. Declared motions are always
-/// fresh.
+/// Without declared motions the newest input of a request is a frame, of the sensor whose frames are freshest. It is
+/// latency_s old when it arrives. On average half a period of the sensor and half of the predictor pass until a request
+/// uses it. Declared motions are always fresh.
 std::string late_sensor(const SimulatorConfig& simulator, const PredictorConfig& predictor,
                         const PlannerConfig& planner);
 
