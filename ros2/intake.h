@@ -24,7 +24,7 @@ inline constexpr Duration kOldestOdometry{300'000};
 /// Detections and clouds may be this old.
 inline constexpr Duration kOldestMeasurement{1'000'000};
 /// Larger clouds are thinned to every second, third … point.
-inline constexpr std::int64_t kMaxCloudPoints = 4 * kMaxCloudPointsPerMessage;
+inline constexpr std::int64_t kMaxCloudPoints = std::int64_t{4} * kMaxCloudPointsPerMessage;
 
 /// Why a message is not used.
 struct Refusal {
