@@ -11,6 +11,7 @@
 #include "logger/app/logger_node.h"
 #include "mavlink/bridge_config.h"
 #include "mavlink/sim/simulated_autopilot.h"
+#include "mission/app/mission_config.h"
 #include "planner/app/config_reader.h"
 #include "predictor/app/predictor_config.h"
 #include "runtime/data_folder.h"
@@ -40,7 +41,8 @@ MapperConfig read_sections(ConfigDocument& document, const Scenario& scenario) {
   (void)root.section("executor").read<ExecutorConfig>();
   (void)read_predictor_config(root.section("predictor"));
   (void)read_planner_config(root.section("planner"), scenario.semantics);
-  return read_mapper_config(root.section("mapper"));
+  (void)mission::read_mission_config(root.section("mission"));
+  return read_mapper_config(document);
 }
 
 /// Returns overrides that name the mapper's files by absolute paths.
@@ -106,11 +108,19 @@ CampaignIdentity check_inputs(const FlightInputs& inputs, std::uint64_t seed) {
           fmt::format("{:016x}", configuration_hash(document.effective())), build_id()};
 }
 
+/// Returns a file's path; a relative one is beside the scenario.
+std::string beside(const std::string& scenario_file, const std::string& file) {
+  return fs::absolute(fs::path(scenario_file).parent_path() / file).lexically_normal().string();
+}
+
 std::string spell_out(const FlightInputs& inputs, std::uint64_t seed) {
   std::vector<std::string> overrides = inputs.with_seed(seed);
   ConfigDocument document = ConfigDocument::load(inputs.scenario_file, overrides);
-  const Scenario scenario = read_scenario(document);
+  Scenario scenario = read_scenario(document);
   const MapperConfig mapper = read_sections(document, scenario);
+  for (FenceFile& fences : scenario.world.fence_files) fences.file = beside(inputs.scenario_file, fences.file);
+  const std::string mission = mission::read_mission_config(document.root().section("mission")).file;
+  if (!mission.empty()) overrides.push_back("mission.file=" + beside(inputs.scenario_file, mission));
   const std::vector<std::string> absolute = absolute_sources(mapper, inputs.scenario_file);
   overrides.insert(overrides.end(), absolute.begin(), absolute.end());
   // A document prints only the sections that were read.

@@ -18,25 +18,30 @@ using Json = nlohmann::ordered_json;
 /// Together these settings make every key known that depends on another.
 constexpr const char* kExamples[] = {
     "timeout_s: 60\n"
-    "world: {obstacles: [{centre: [5, 0, 1]}], recorded: [{file: a.txt, columns: 6, z_column: 4}]}\n"
+    "world: {obstacles: [{centre: [5, 0, 1]}], recorded: [{file: a.txt, columns: 6, z_column: 4}], origin: "
+    "{latitude: 0, longitude: 0}, fences: [{corners: [[0, 0], [1, 0], [0, 1]], floor: 0, ceiling: 1}]}\n"
     "uav: {body: {radius: 0.1}, flight_box: {min: [-9, -9, 0], max: [99, 9, 9]}}\n"
     "semantics: {regions: [{name: a, class: texture, box: {min: [0, 0, 0], max: [1, 1, 1]}}]}\n"
     "simulator: {sensor: {mode: noisy}, sensors: [{type: camera}], vehicle: quadrotor, estimation: vio}\n"
     "mapper: {extents: {min: [0, 0, 0], max: [1, 1, 1]}, sources: [{file: town.las}]}\n",
-    "world: {obstacles: [{motion: trefoil, centre: [5, 0, 1]}]}\n"
+    "world: {obstacles: [{motion: trefoil, centre: [5, 0, 1]}], origin: {latitude: 0, longitude: 0}, fences: "
+    "[{coordinates: [[0, 0], [1, 0], [0, 1]]}]}\n"
     "simulator: {sensors: [{type: lidar}]}\n"
     "uav: {body: {half_extents: [0.1, 0.1, 0.1]}, dynamics: {thrust_min: 2, thrust_max: 39, tilt_max: 70, "
     "body_rate_max: 900}}\n"
     "semantics: {regions: [{name: a, class: texture, ball: {centre: [0, 0, 0], radius: 1}}]}\n",
-    "world: {obstacles: [{motion: wave, centre: [5, 0, 1], amplitude: [0, 1, 0]}]}\n"
+    "world: {obstacles: [{motion: wave, centre: [5, 0, 1], amplitude: [0, 1, 0]}], fences: [{circle: {centre: [0, "
+    "0], radius: 1}}]}\n"
     "uav: {body: {vertices: [[0, 0, 0]]}}\n"
     "semantics: {regions: [{name: a, class: texture, prism: {corners: [[0, 0], [1, 0], [0, 1]], z_min: 0, z_max: "
     "1}}]}\n",
     "world: {obstacles: [{motion: linear, centre: [5, 0, 1], velocity: [0, 1, 0]}], recorded: [{file: a.txt, columns: "
     "6, z_column: 4, copies: 2, within: {min: [0, 0, 0], max: [9, 9, 9]}}]}\n"
     "uav: {routes: [{from: [0, 0, 1], to: [9, 0, 1]}]}\n",
-    "world: {obstacles: [{motion: waypoints, points: [[0, 5, 0, 1]]}]}\n"
-    "simulator: {sensors: [{type: near}]}\n"};
+    "world: {obstacles: [{motion: waypoints, points: [[0, 5, 0, 1]]}], origin: {latitude: 0, longitude: 0}, fences: "
+    "[{circle: {latitude: 0, longitude: 0, radius: 1}}]}\n"
+    "simulator: {sensors: [{type: near}]}\n",
+    "world: {fences: [{file: site.plan, floor: 0, ceiling: 9}]}\n"};
 
 /// Tables whose keys the user names: every value is like the table's default values.
 constexpr std::string_view kOpenTables[] = {"semantics.classes", "semantics.lambdas", "mapper.classes",

@@ -6,6 +6,8 @@
 
 #include "estimator/app/estimator_node.h"
 #include "executor/app/executor_node.h"
+#include "mission/app/load_mission.h"
+#include "mission/app/mission_node.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/config_reader.h"
 #include "planner/app/planner_node.h"
@@ -22,6 +24,11 @@
 #include "simulator/app/simulator_node.h"
 
 namespace tern {
+namespace {
+
+constexpr const char* kMissionProcess = "tern-mission";
+
+}  // namespace
 
 const char* to_string(Charge charge) { return charge == Charge::Cpu ? "cpu" : "counts"; }
 
@@ -34,6 +41,7 @@ struct VirtualSystem::Parts {
   MapperConfig mapper;
   VoxelMap map;
   PlannerConfig planner;
+  mission::MissionConfig mission;
   std::string effective_yaml;  ///< of the whole file
 
   Parts(ConfigDocument& document, Charge charge_)
@@ -41,9 +49,10 @@ struct VirtualSystem::Parts {
         scenario(read_scenario(document)),
         executor(document.root().section("executor").read<ExecutorConfig>()),
         predictor(read_predictor_config(document.root().section("predictor"))),
-        mapper(read_mapper_config(document.root().section("mapper"))),
+        mapper(read_mapper_config(document)),
         map(load_map(scenario, mapper, std::getenv("TERN_DATA")).map),
-        planner(read_planner_config(document.root().section("planner"), scenario.semantics)) {}
+        planner(read_planner_config(document.root().section("planner"), scenario.semantics)),
+        mission(mission::read_mission_config(document.root().section("mission"))) {}
 };
 
 VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides, Charge charge,
@@ -64,6 +73,7 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
   }));
   for (const char* process : {"tern-executor", "tern-predictor", "tern-mapper", "tern-planner"}) start(process);
   if (estimates) start("tern-estimator");
+  if (config.goals_from == kMissionProcess) start(kMissionProcess);
 }
 
 VirtualSystem::~VirtualSystem() = default;
@@ -84,6 +94,14 @@ void VirtualSystem::start(const std::string& process) {
     }
     if (process == "tern-estimator") {
       return std::make_unique<EstimatorNode>(bus, parts_->estimator, parts_->scenario.uav.start);
+    }
+    if (process == kMissionProcess) {
+      mission::MissionSetup setup;
+      setup.mission = mission::load_mission(parts_->scenario, parts_->mission);
+      setup.site = mission::site_of(parts_->scenario, parts_->mission.progress);
+      setup.uav = parts_->scenario.uav;
+      setup.config = parts_->mission.progress;
+      return std::make_unique<mission::MissionNode>(bus, std::move(setup));
     }
     if (process != "tern-planner") throw std::invalid_argument("VirtualSystem: no process " + process);
     PlannerExecution execution;

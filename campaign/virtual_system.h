@@ -22,8 +22,8 @@ enum class Charge {
 /// Returns "counts" or "cpu".
 const char* to_string(Charge charge);
 
-/// Starts simulator, executor, predictor, mapper and planner of one scenario file on a VirtualRunner. The planner has
-/// no threads.
+/// Starts simulator, executor, predictor, mapper and planner of one scenario file on a VirtualRunner, and tern-mission
+/// if simulator.goals_from names it. The planner has no threads.
 class VirtualSystem {
  public:
   /// @param begin   start time, µs > 0
@@ -33,8 +33,8 @@ class VirtualSystem {
                 Charge charge = Charge::Counts, UTime begin = UTime{1'000'000}, const std::optional<Key>& master = {});
   ~VirtualSystem();
 
-  /// Kills a process that is not the simulator: "tern-planner", "tern-estimator". The next start() makes a new one without
-  /// memory.
+  /// Kills a process that is not the simulator: "tern-planner", "tern-mission". The next start() makes a new one
+  /// without memory.
   /// @throws std::invalid_argument for other names
   void stop(const std::string& process);
   void start(const std::string& process);

@@ -21,6 +21,8 @@ endif()
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 # Optional: for tern-ros2 alone.
 pkg_check_modules(CYCLONEDDS IMPORTED_TARGET CycloneDDS)
+# For missions and fences in latitude and longitude; optional (geodesy/).
+pkg_check_modules(GEOGRAPHIC QUIET IMPORTED_TARGET geographiclib)
 
 if(TERN_BUILD_TESTS)
   find_package(GTest REQUIRED)

@@ -6,7 +6,7 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 typed=$(printf '%q ' "$0" "$@")
 typed=${typed% }
-scenario=corridor_demo install=$([[ -n $TERN_INSTALLED ]] || echo yes) view='' check='' goals=() url='' isolated='' autopilot=''
+scenario=corridor_demo install=$([[ -n $TERN_INSTALLED ]] || echo yes) view='' check='' goals=() url='' isolated='' autopilot='' mission=''
 flight=("$TERN_BIN/tern-launch" fly --programs="$TERN_BIN") # and its options
 programs=(flight)                                           # CMake targets to build; `flight` is needed by every flight
 
@@ -39,7 +39,7 @@ parse() {
         shift
         ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
-      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url | --pace | --autopilot | --view-wait)
+      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url | --pace | --autopilot | --mission | --view-wait)
         [[ $# -gt 0 ]] || die "$option needs a value (--help)"
         value=$1
         shift
@@ -53,6 +53,7 @@ parse() {
       --view) view=$value ;;
       --lcm-url) url=$value ;;
       --autopilot) autopilot=$value ;;
+      --mission) mission=$value ;;
       --set | --pace | --record | --summary) flight+=("$option=$value") ;;
       --view-wait)
         [[ $value =~ ^[0-9]+$ ]] || die "--view-wait $value: must be whole seconds"
@@ -93,6 +94,7 @@ choose_programs() {
   [[ -z $view ]] || programs+=(tern-viewer tern-listen)
   ! gives estimator && ! flies_on_estimate || programs+=(tern-estimator)
   [[ -z $autopilot ]] && ! gives mavlink || programs+=(tern-mavlink)
+  [[ -z $mission ]] && ! gives mission || programs+=(tern-mission)
   [[ $autopilot != sim ]] && ! gives autopilot_sim || programs+=(tern-autopilot-sim)
 }
 
@@ -100,7 +102,7 @@ choose_programs() {
 check_scenario() {
   local setting options=() drawing
   drawing=$(basename "$scenario_file" .yaml).svg
-  [[ -z $view$url$isolated$autopilot ]] || die "--check does not fly: --view, --lcm-url, --isolated and --autopilot have no effect on it"
+  [[ -z $view$url$isolated$autopilot$mission ]] || die "--check does not fly: --view, --lcm-url, --isolated, --autopilot and --mission have no effect on it"
   for setting in "${flight[@]:3}"; do
     case $setting in
       --set=seed=*) options+=(--seed "${setting#--set=seed=}") ;;
@@ -113,7 +115,10 @@ check_scenario() {
 
 parse "$@"
 scenario_file=$(find_scenario "$scenario")
-lists=("$TERN_ROOT/launch_scripts/packages.txt" ${view:+"$TERN_ROOT/launch_scripts/packages_view.txt"})
+[[ -z $mission || $mission == *://* || -f $mission ]] || die "--mission $mission: no such file"
+[[ -z $mission || $mission == *://* ]] || mission=$(readlink -f "$mission")
+flight+=(${mission:+--mission="$mission"})
+lists=("$TERN_ROOT/launch_scripts/packages.txt" ${view:+"$TERN_ROOT/launch_scripts/packages_view.txt"} ${mission:+"$TERN_ROOT/launch_scripts/packages_mission.txt"})
 [[ -z $install ]] || "$TERN_ROOT/launch_scripts/install.sh" "${lists[@]}" || die "the packages could not be installed"
 choose_programs
 build_programs "${programs[@]}" || die "the programs could not be built"

@@ -8,6 +8,9 @@
 namespace tern {
 namespace {
 
+/// Whether missions come over MAVLink instead of from a file.
+bool is_uploaded(const LaunchOptions& options) { return options.mission.find("://") != std::string::npos; }
+
 /// Overrides for a flight with an autopilot, then those of the user, which take precedence.
 std::vector<std::string> overrides_of(const LaunchOptions& options) {
   std::vector<std::string> values;
@@ -18,6 +21,10 @@ std::vector<std::string> overrides_of(const LaunchOptions& options) {
   values.insert(values.end(), options.autopilot_limits.begin(), options.autopilot_limits.end());
   if (options.autopilot_sim) {
     values.insert(values.end(), {"mavlink.set_parameters=true", "mavlink.without_remote=true"});
+  }
+  if (!options.mission.empty()) {
+    values.push_back(std::string("simulator.goals_from=") + kMission);
+    if (!is_uploaded(options)) values.push_back("mission.file=" + options.mission);
   }
   values.insert(values.end(), options.overrides.begin(), options.overrides.end());
   return values;
@@ -73,6 +80,10 @@ std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, co
   for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
     add(name, {});
   if (options.estimates) add(kEstimator, {});
+  if (!options.mission.empty()) {
+    std::vector<std::string>& words = add(kMission, {"--record", record}).child.command;
+    if (is_uploaded(options)) words.insert(words.end(), {"--connect", options.mission});
+  }
   if (!options.autopilot.empty()) add(kMavlink, {"--connect", options.autopilot});
   if (options.autopilot_sim) {
     const std::string place = options.autopilot.substr(options.autopilot.find("//"));
@@ -89,7 +100,7 @@ std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOpti
                                                                 const std::vector<std::string>& sections) {
   std::vector<std::vector<std::string>> checks;
   for (const auto& [name, section] : std::initializer_list<std::pair<const char*, const char*>>{
-           {kEstimator, "estimator"}, {kMavlink, "mavlink"}, {kAutopilotSim, "autopilot_sim"}}) {
+           {kEstimator, "estimator"}, {kMavlink, "mavlink"}, {kAutopilotSim, "autopilot_sim"}, {kMission, "mission"}}) {
     const auto flies = [name = name](const SupervisedProcess& p) { return p.name == name; };
     if (std::any_of(processes.begin(), processes.end(), flies)) continue;
     if (std::find(sections.begin(), sections.end(), section) == sections.end()) continue;

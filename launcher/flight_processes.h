@@ -33,7 +33,8 @@ struct LaunchOptions {
   std::vector<std::string> autopilot_limits;  ///< overrides for a flight with an autopilot
   bool autopilot_sim = false;                 ///< the autopilot is tern-autopilot-sim; needs udp://
   bool estimates = false;                     ///< tern-estimator flies as well (simulator.estimation: vio)
-  bool audit = false, report = false;         ///< run tern-audit, tern-report after the flight
+  std::string mission;                 ///< for tern-mission: a file, or a MAVLink URL; empty: the scenario's goal
+  bool audit = false, report = false;  ///< run tern-audit, tern-report after the flight
 };
 
 /// A process that the launcher starts.
@@ -49,6 +50,7 @@ struct SupervisedProcess {
 std::vector<std::string> autopilot_limits(const Limits& limits);
 inline constexpr char kMavlink[] = "tern-mavlink", kAutopilotSim[] = "tern-autopilot-sim";
 inline constexpr char kEstimator[] = "tern-estimator";
+inline constexpr char kMission[] = "tern-mission";
 inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kViewer[] = "tern-viewer";
 
 /// The processes of a flight in the order of their start. The viewer is first, because the flight waits for its page.

@@ -110,6 +110,89 @@ struct GlobalPositionInt {
   }
 };
 
+// The mission protocol: https://mavlink.io/en/services/mission.html. `mission_type`: 0 mission, 1 fence, 2 rally
+// points.
+struct MissionRequest {
+  static constexpr std::uint32_t kId = 40;
+  static constexpr std::uint8_t kCrcExtra = 230, kMinLength = 4;
+  std::uint16_t seq = 0;
+  std::uint8_t target_system = 0, target_component = 0, mission_type = 0;
+  static constexpr auto fields(auto& m) { return std::tie(m.seq, m.target_system, m.target_component, m.mission_type); }
+};
+
+struct MissionCurrent {
+  static constexpr std::uint32_t kId = 42;
+  static constexpr std::uint8_t kCrcExtra = 28, kMinLength = 2;
+  std::uint16_t seq = 0, total = 0;
+  std::uint8_t mission_state = 0, mission_mode = 0;  ///< 1 none there, 2 to be started, 3 active, 4 paused, 5 complete
+  std::array<std::uint32_t, 3> ids{};                ///< mission_id, fence_id, rally_points_id
+  static constexpr auto fields(auto& m) { return std::tie(m.seq, m.total, m.mission_state, m.mission_mode, m.ids); }
+};
+
+struct MissionRequestList {
+  static constexpr std::uint32_t kId = 43;
+  static constexpr std::uint8_t kCrcExtra = 132, kMinLength = 2;
+  std::uint8_t target_system = 0, target_component = 0, mission_type = 0;
+  static constexpr auto fields(auto& m) { return std::tie(m.target_system, m.target_component, m.mission_type); }
+};
+
+struct MissionCount {
+  static constexpr std::uint32_t kId = 44;
+  static constexpr std::uint8_t kCrcExtra = 221, kMinLength = 4;
+  std::uint16_t count = 0;
+  std::uint8_t target_system = 0, target_component = 0, mission_type = 0;
+  std::uint32_t opaque_id = 0;
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.count, m.target_system, m.target_component, m.mission_type, m.opaque_id);
+  }
+};
+
+struct MissionClearAll {
+  static constexpr std::uint32_t kId = 45;
+  static constexpr std::uint8_t kCrcExtra = 232, kMinLength = 2;
+  std::uint8_t target_system = 0, target_component = 0, mission_type = 0;
+  static constexpr auto fields(auto& m) { return std::tie(m.target_system, m.target_component, m.mission_type); }
+};
+
+struct MissionItemReached {
+  static constexpr std::uint32_t kId = 46;
+  static constexpr std::uint8_t kCrcExtra = 11, kMinLength = 2;
+  std::uint16_t seq = 0;
+  static constexpr auto fields(auto& m) { return std::tie(m.seq); }
+};
+
+struct MissionAck {
+  static constexpr std::uint32_t kId = 47;
+  static constexpr std::uint8_t kCrcExtra = 153, kMinLength = 3;
+  std::uint8_t target_system = 0, target_component = 0, type = 0, mission_type = 0;
+  std::uint32_t opaque_id = 0;
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.target_system, m.target_component, m.type, m.mission_type, m.opaque_id);
+  }
+};
+
+struct MissionRequestInt {
+  static constexpr std::uint32_t kId = 51;
+  static constexpr std::uint8_t kCrcExtra = 196, kMinLength = 4;
+  std::uint16_t seq = 0;
+  std::uint8_t target_system = 0, target_component = 0, mission_type = 0;
+  static constexpr auto fields(auto& m) { return std::tie(m.seq, m.target_system, m.target_component, m.mission_type); }
+};
+
+struct MissionItemInt {
+  static constexpr std::uint32_t kId = 73;
+  static constexpr std::uint8_t kCrcExtra = 38, kMinLength = 37;
+  std::array<float, 4> param{};
+  std::int32_t x = 0, y = 0;  ///< 1e-7 degrees; in a local frame 1e-4 m
+  float z = 0.0F;             ///< m
+  std::uint16_t seq = 0, command = 0;
+  std::uint8_t target_system = 0, target_component = 0, frame = 0, current = 0, autocontinue = 0, mission_type = 0;
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.param, m.x, m.y, m.z, m.seq, m.command, m.target_system, m.target_component, m.frame, m.current,
+                    m.autocontinue, m.mission_type);
+  }
+};
+
 struct GpsGlobalOrigin {
   static constexpr std::uint32_t kId = 49;
   static constexpr std::uint8_t kCrcExtra = 39, kMinLength = 12;
@@ -226,7 +309,9 @@ struct Odometry {
 using AllMessages =
     std::tuple<Heartbeat, SysStatus, ParamRequestRead, ParamValue, ParamSet, AttitudeQuaternion, LocalPositionNed,
                GlobalPositionInt, GpsGlobalOrigin, CommandLong, CommandAck, SetPositionTargetLocalNed, Timesync,
-               HilStateQuaternion, EstimatorStatus, ExtendedSysState, StatusText, Odometry>;
+               HilStateQuaternion, EstimatorStatus, ExtendedSysState, StatusText, Odometry, MissionRequest,
+               MissionCurrent, MissionRequestList, MissionCount, MissionClearAll, MissionItemReached, MissionAck,
+               MissionRequestInt, MissionItemInt>;
 
 /// The length of a message's fields in bytes, with extensions.
 template <class M>

@@ -72,6 +72,7 @@ const std::vector<ProcessRole>& process_roles() {
        names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kSemanticMap,
                 kObstacleObservations, kPredictions, kObstacleTruth, kVehicleTruth, kOdometry, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
+      {"tern-mission", Role::Operator, names_of(kGoal, kUavState, kVehicleStatus, kSemanticMap, kPredictions)},
   };
   return processes;
 }

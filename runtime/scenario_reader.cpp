@@ -14,6 +14,7 @@
 #include "core/world/message_limits.h"
 #include "core/world/names.h"
 #include "core/world/step_aside.h"
+#include "runtime/fence_reader.h"
 #include "runtime/polygon.h"
 #include "runtime/scenario_file.h"
 
@@ -176,6 +177,7 @@ WorldSpec read_world(ConfigSection section) {
   std::set<std::string> names;
   for (const ConfigSection& entry : section.list("obstacles")) world.obstacles.push_back(read_obstacle(entry, names));
   for (const ConfigSection& entry : section.list("recorded")) world.recorded.push_back(read_recorded(entry));
+  read_origin_and_fences(section, world);
   section.finish();
   if (world.generator == "none" && world.count > 0) {
     throw section.error("count", fmt::format("{} needs world.generator, which is none", world.count));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <type_traits>
 
 #include "runtime/scenario_file.h"
@@ -67,6 +68,45 @@ std::string recorded_yaml(const RecordedTracksSpec& spec) {
   return out + fmt::format("      leave_out_within_m: {}\n", yaml_number(spec.leave_out_within_m));
 }
 
+std::string levels_yaml(double floor, double ceiling) {
+  return (std::isfinite(floor) ? fmt::format("      floor: {}\n", yaml_number(floor)) : "") +
+         (std::isfinite(ceiling) ? fmt::format("      ceiling: {}\n", yaml_number(ceiling)) : "");
+}
+
+std::string shape_yaml(const FencePolygon& polygon, bool is_geodetic) {
+  std::string corners;
+  for (const Eigen::Vector2d& c : polygon.corners) {
+    corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", yaml_number(c.x()), yaml_number(c.y()));
+  }
+  return fmt::format("{}: [{}]", is_geodetic ? "coordinates" : "corners", corners);
+}
+
+std::string shape_yaml(const FenceCircle& circle, bool is_geodetic) {
+  const std::string x = yaml_number(circle.centre.x()), y = yaml_number(circle.centre.y());
+  const std::string centre =
+      is_geodetic ? fmt::format("latitude: {}, longitude: {}", x, y) : fmt::format("centre: [{}, {}]", x, y);
+  return fmt::format("circle: {{{}, radius: {}}}", centre, yaml_number(circle.radius));
+}
+
+std::string fences_yaml(const WorldSpec& world) {
+  std::string out;
+  if (const auto& o = world.origin) {
+    out = fmt::format("  origin: {{latitude: {}, longitude: {}, height: {}}}\n", yaml_number(o->latitude),
+                      yaml_number(o->longitude), yaml_number(o->height));
+  }
+  out += world.fences.empty() && world.fence_files.empty() ? "" : "  fences:\n";
+  for (const Fence& fence : world.fences) {
+    const std::string shape = std::visit([&](const auto& s) { return shape_yaml(s, fence.is_geodetic); }, fence.shape);
+    out += fmt::format("    - {}\n      kind: {}\n", shape, fence.is_inclusion ? "inclusion" : "exclusion");
+    if (!fence.name.empty()) out += fmt::format("      name: {}\n", yaml_text(fence.name));
+    out += levels_yaml(fence.floor, fence.ceiling);
+  }
+  for (const FenceFile& file : world.fence_files) {
+    out += fmt::format("    - file: {}\n", yaml_text(file.file)) + levels_yaml(file.floor, file.ceiling);
+  }
+  return out;
+}
+
 std::string world_yaml(const WorldSpec& world) {
   std::string out = fmt::format("world:\n  generator: {}\n  count: {}\n", world.generator, world.count);
   if (world.slowness) out += fmt::format("  slowness: {}\n", yaml_number(*world.slowness));
@@ -78,7 +118,7 @@ std::string world_yaml(const WorldSpec& world) {
   }
   out += world.recorded.empty() ? "" : "  recorded:\n";
   for (const RecordedTracksSpec& spec : world.recorded) out += recorded_yaml(spec);
-  return out;
+  return out + fences_yaml(world);
 }
 
 std::string body_yaml(const Body& body) {

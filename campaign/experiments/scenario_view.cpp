@@ -143,8 +143,7 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
   (void)check_inputs(inputs, view.scenario.seed);
   const auto simulator = read_simulator_config(document.root().section("simulator"), view.scenario.seed);
   view.world = flyable_world_of(view.scenario, simulator);
-  LoadedMap loaded =
-      load_map(view.scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"));
+  LoadedMap loaded = load_map(view.scenario, read_mapper_config(document), std::getenv("TERN_DATA"));
   const VoxelMap& map = loaded.map;
   view.clouds = std::move(loaded.remarks);
   view.warnings = view.world.remarks;

@@ -8,7 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/geodetic_point.h"
 #include "core/base/types.h"
+#include "core/world/fence.h"
 #include "core/world/region.h"
 #include "core/world/vehicle.h"
 
@@ -81,6 +83,9 @@ struct WorldSpec {
   std::optional<double> slowness;            ///< of the generated trefoils, > 0; nullopt: the generator's own
   std::vector<ObstacleSpec> obstacles;       ///< listed obstacles
   std::vector<RecordedTracksSpec> recorded;  ///< recorded obstacles
+  std::optional<GeodeticPoint> origin;       ///< of W; nullopt: unknown, and places on the earth are refused
+  std::vector<Fence> fences;                 ///< listed fences
+  std::vector<FenceFile> fence_files;        ///< fences from files, in addition
 };
 
 /// The regions and their weights in the planner's cost.

@@ -22,6 +22,7 @@ PROCESSES = {
     "planner": "planner",
     "executor": "executor",
     "semantic_mapper": "mapper",
+    "mission": "mission",
     "monitor": "monitor",
     "viewer": "viewer",
     "logger": "logger",

@@ -29,6 +29,7 @@ sections=(
   tern-mavlink mavlink
   tern-autopilot-sim autopilot_sim
   tern-logger logger
+  tern-mission mission
 )
 
 keys() {

@@ -268,6 +268,13 @@ Awaited await_or_end(pid_t child) {
   }
 }
 
+/// Prints which steps of a mission were reached.
+void report_mission(const LaunchOptions& options, const fs::path& record) {
+  if (!options.mission.empty() && fs::exists(record / "mission.txt")) {
+    say("\n{}", without_end(read_text(record / "mission.txt")));
+  }
+}
+
 /// Runs audit and report, if requested. @return the flight's exit code after them
 int after_flight(const LaunchOptions& options, const fs::path& record, int code) {
   int ended_by = 0;
@@ -321,6 +328,7 @@ int fly(const LaunchOptions& options) {
   int code = watch_over(options, *record);
   const bool is_played = options.view_fd && code < kExitSignalled && fs::exists(*record / "flight.lcm");
   const pid_t player = is_played ? play_again(options, *record) : 0;
+  report_mission(options, *record);
   const bool is_over = code < kExitSignalled || (options.allow_goals && code > kExitSignalled);
   if (is_over && fs::exists(*record / "flight.lcm")) code = after_flight(options, *record, code);
   if (code > kExitSignalled) say("\nEnded by a signal; the record is in {}", record->string());

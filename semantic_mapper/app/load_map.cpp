@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/world/names.h"
+#include "semantic_mapper/app/load_fences.h"
 #include "semantic_mapper/app/load_source.h"
 #include "semantic_mapper/voxel_map/map_builder.h"
 
@@ -31,6 +32,7 @@ LoadedMap load_map(const Scenario& scenario, const MapperConfig& config, const c
       sources.clouds.push_back(load_cloud(source, scenario, config, environment, loaded.remarks));
     }
   }
+  sources.fences = load_fences(scenario, config, loaded.remarks);
 
   MapBuildOptions options;
   options.resolution = config.resolution;

@@ -7,7 +7,7 @@ int main(int argc, char** argv) {
       .name = "tern-mapper",
       .section = "mapper",
       .summary = "Labels voxels from regions and point clouds; publishes SEMANTIC_MAP",
-      .read_section = tern::read_mapper_config,
+      .read_section = [](tern::ConfigSection section) { tern::read_mapper_config(section); },
       .example = "mapper: {extents: {min: [0, 0, 0], max: [1, 1, 1]}, sources: [{file: town.las}]}"};
   return tern::run_process(argc, argv, description, tern::make_mapper_node);
 }

@@ -182,4 +182,10 @@ MapperConfig read_mapper_config(ConfigSection section) {
   return config;
 }
 
+MapperConfig read_mapper_config(ConfigDocument& document) {
+  MapperConfig config = read_mapper_config(document.root().section("mapper"));
+  config.mission_file = document.root().section("mission").text("file", "");
+  return config;
+}
+
 }  // namespace tern

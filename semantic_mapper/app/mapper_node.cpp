@@ -98,7 +98,7 @@ NodeHealth MapperNode::health() const {
 }
 
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
-  const MapperConfig config = read_mapper_config(context.section);
+  const MapperConfig config = read_mapper_config(context.document);
   const LoadedMap loaded = load_map(context.scenario, config, std::getenv("TERN_DATA"));
   for (const MapRemark& remark : loaded.remarks) {
     log::write(remark.is_warning ? log::Level::Warning : log::Level::Info, "{}", remark.text);

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "semantic_mapper/voxel_map/cloud_voxels.h"
+#include "semantic_mapper/voxel_map/fence_voxels.h"
 #include "semantic_mapper/voxel_map/octomap_voxels.h"
+#include "semantic_mapper/voxel_map/standing_place.h"
 #include "semantic_mapper/voxel_map/voxel_painter.h"
 
 namespace tern {
@@ -54,6 +56,7 @@ struct Room {
 Room choose_room(const MapSources& sources, const MapBuildOptions& options) {
   if (options.extents) return {*options.extents, ""};
   Box box = bounds_of(sources);
+  box.extend(fenced_box(sources.fences, options.include, options.resolution));
   if (box.isEmpty()) box = Box(options.somewhere, options.somewhere);
   if (options.include.isEmpty()) return {box, ""};
   const Box roomy = box.merged(options.include);
@@ -66,13 +69,14 @@ Room choose_room(const MapSources& sources, const MapBuildOptions& options) {
                             box.sizes().x(), box.sizes().y(), box.sizes().z(), options.resolution)};
 }
 
-Result<VoxelGrid> grid_over(const Box& box, const MapBuildOptions& options) {
+Result<VoxelGrid> grid_over(const Box& box, const MapSources& sources, const MapBuildOptions& options) {
   const Lattice lattice = lattice_of(box, options.resolution);
   if (is_too_large(lattice)) {
     return fail(fmt::format(
         "a map of {:g} × {:g} × {:g} m takes {:g} voxels of {} m (limit {}): give smaller extents or a "
-        "coarser resolution",
-        box.sizes().x(), box.sizes().y(), box.sizes().z(), lattice.size.prod(), options.resolution, kMaxVoxels));
+        "coarser resolution{}",
+        box.sizes().x(), box.sizes().y(), box.sizes().z(), lattice.size.prod(), options.resolution, kMaxVoxels,
+        sources.fences.empty() ? "" : ". A map with fences covers them inside uav.flight_box: state a smaller one"));
   }
   VoxelGrid grid;
   grid.origin = lattice.first * options.resolution;
@@ -115,12 +119,42 @@ VoxelLabel label_of(const std::string& class_name, const MapSources& sources) {
   return VoxelLabel::Unknown;
 }
 
+/// A map that ends within a fence has no wall there.
+Result<void> check_extents(const MapSources& sources, const MapBuildOptions& options, const VoxelGrid& grid) {
+  const Box needed = fenced_box(sources.fences, options.include, options.resolution);
+  if (needed.isEmpty() || grown(grid.bounds(), Vec3::Constant(kFenceTouch)).contains(needed)) return {};
+  const Vec3 &low = needed.min(), &high = needed.max();
+  return fail(fmt::format(
+      "extents end within the fences: they must contain ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m, the part of the "
+      "fences inside uav.flight_box and a voxel around inclusion fences",
+      low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+}
+
+/// Makes what the fences forbid occupied, whatever other sources say.
+Result<void> paint_fences(const MapSources& sources, const MapBuildOptions& options, VoxelPainter& painter) {
+  const VoxelGrid& grid = painter.grid();
+  const std::vector<VoxelLabel> labels = fence_labels(sources.fences, grid);
+  if (options.body && !voxels_overlapped(grid, labels, *options.body, options.somewhere).empty()) {
+    const Vec3& p = options.somewhere;
+    return fail(
+        fmt::format("the vehicle at uav.start, ({:g}, {:g}, {:g}) m, is beyond a fence, or less than a voxel of "
+                    "{:g} m from it",
+                    p.x(), p.y(), p.z(), grid.resolution));
+  }
+  const std::uint8_t name = painter.class_index("fence");
+  for (std::int64_t k = 0; k < grid.voxels(); ++k) {
+    if (labels[idx(k)] == VoxelLabel::Occupied) painter.paint(k, VoxelLabel::Occupied, name);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<BuiltMap> build_map(const MapSources& sources, const MapBuildOptions& options) {
   Room room = choose_room(sources, options);
-  const auto grid = grid_over(room.box, options);
+  const auto grid = grid_over(room.box, sources, options);
   if (!grid) return tl::unexpected(grid.error());
+  if (const auto fits = check_extents(sources, options, *grid); !fits) return tl::unexpected(fits.error());
   VoxelPainter painter(*grid, options.background);
   for (const Region& region : sources.regions) paint_region(region, label_of(region.class_name, sources), painter);
   for (const Box& obstacle : sources.obstacles) {
@@ -135,6 +169,9 @@ Result<BuiltMap> build_map(const MapSources& sources, const MapBuildOptions& opt
   for (const OctoMapFile& octomap : sources.octomaps) paint_octomap(octomap, painter);
   BuiltMap built;
   if (options.body) built.stood_in = painter.free_standing_place(*options.body, options.somewhere);
+  if (!sources.fences.empty()) {
+    if (const auto painted = paint_fences(sources, options, painter); !painted) return tl::unexpected(painted.error());
+  }
   built.map = painter.finish();
   built.cut = std::move(room.cut);
   return built;

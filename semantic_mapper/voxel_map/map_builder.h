@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/world/fence.h"
 #include "core/world/region.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
@@ -44,6 +45,7 @@ struct MapSources {
   std::vector<Box> obstacles;  ///< occupied, with the class "obstacle"
   std::vector<CloudLayer> clouds;
   std::vector<OctoMapFile> octomaps;  ///< occupied and free space (paint_octomap)
+  std::vector<Fence> fences;          ///< occupied, of class "fence", where they forbid (fence_labels); none geodetic
 };
 
 /// The grid of a map and its background.
@@ -76,9 +78,12 @@ inline constexpr std::int64_t kMaxRoomyVoxels = 8'000'000;
 /// 4. Voxels in which the vehicle stands become free (voxels_stood_in).
 /// 5. Without extents, a map that would be too large is cut to the flight box, `include`: a few stray points must not
 ///    refuse a cloud.
+/// 6. Without extents the grid covers the fences (fenced_box). They are painted last, so that nothing frees their
+///    voxels.
 ///
 /// @return an Error with extents and limits if the map would have more than kMaxVoxels. An Error with min_points if no
-///   voxel of a cloud reaches that number of marks.
+///   voxel of a cloud reaches that number of marks. An Error with the extents if they end within a fence, and one if
+///   the body at `somewhere` overlaps voxels that a fence forbids.
 Result<BuiltMap> build_map(const MapSources& sources, const MapBuildOptions& options);
 
 }  // namespace tern

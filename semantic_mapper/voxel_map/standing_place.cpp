@@ -33,6 +33,11 @@ std::vector<std::int64_t> voxels_within(double room, const VoxelGrid& grid, cons
 
 }  // namespace
 
+std::vector<std::int64_t> voxels_overlapped(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
+                                            const Body& body, const Vec3& p) {
+  return voxels_within(0.0, grid, labels, body, p);
+}
+
 std::vector<std::int64_t> voxels_stood_in(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
                                           const Body& body, const Vec3& p) {
   const std::vector<std::int64_t> overlapped = voxels_within(0.0, grid, labels, body, p);

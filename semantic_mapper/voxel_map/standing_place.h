@@ -21,6 +21,10 @@ namespace tern {
 std::vector<std::int64_t> voxels_stood_in(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
                                           const Body& body, const Vec3& p);
 
+/// Returns the occupied voxels that the body at p overlaps, by index, ascending. O(voxels of the body).
+std::vector<std::int64_t> voxels_overlapped(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
+                                            const Body& body, const Vec3& p);
+
 /// A body and a voxel that overlap by less than this only touch, m: rounding of coordinates up to 1e5 m.
 inline constexpr double kOverlapTolerance = 1e-6;
 

@@ -107,6 +107,15 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
       "a process of `wait_for` is not ready if its clock differs by more than this from the vehicle's, s"));
   config.send_goal = section.flag("send_goal", config.send_goal,
                                   "publish the scenario's goal with id 1; false: another process publishes the GOAL");
+  config.goals_from =
+      section.text("goals_from", config.goals_from,
+                   "process that sends the goals, as tern-mission: it is waited for, and the scenario's goal is not "
+                   "sent. An arrival counts once it reports Finished; if it reports Failed the flight has not reached "
+                   "its goal in time. Without `timeout_s` it alone decides that");
+  if (!config.goals_from.empty()) {
+    config.send_goal = false;
+    config.wait_for.push_back(config.goals_from);
+  }
   config.min_flight_s = section.number("min_flight_s", config.min_flight_s, Range::at_least(0.0, 1e5),
                                        "earliest arrival, world time, s: for a vehicle that guards its place");
   read_sensors(section, config, seed);

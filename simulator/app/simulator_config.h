@@ -32,7 +32,8 @@ struct SimulatorConfig {
   std::vector<std::string> wait_for = {"tern-executor", "tern-predictor", "tern-mapper", "tern-planner"};
   Duration wait{15'000'000};                ///< time to wait for them, > 0; after it the flight has failed
   Duration max_clock_skew = kMaxClockSkew;  ///< allowed difference of their clocks from the vehicle's, > 0
-  bool send_goal = true;      ///< publish the scenario's goal; false: the mission waits for a GOAL of another process
+  bool send_goal = true;      ///< publish the scenario's goal; false: the flight waits for a GOAL of another process
+  std::string goals_from;     ///< the process that sends the goals, as tern-mission does; "": none of its own
   double min_flight_s = 0.0;  ///< earliest arrival, world time, s, ≥ 0: for a vehicle that guards a place
   SensorConfig sensor;
   /// The vehicle's sensors; they replace `sensor`. A DepthSensorConfig is a camera or a lidar.

@@ -52,18 +52,25 @@ Goal held(Goal goal) {
   return goal;
 }
 
+/// The process that sends the goals limits the time of each of them.
+Scenario timed(Scenario scenario, const SimulatorConfig& config) {
+  constexpr double kNoTimeoutS = 1e6;
+  if (!config.goals_from.empty() && !scenario.timeout_s) scenario.timeout_s = kNoTimeoutS;
+  return scenario;
+}
+
 }  // namespace
 
 SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, std::unique_ptr<Vehicle> vehicle,
                              const SimulatorConfig& config)
     : bus_(bus),
       config_(config),
-      timeout_s_(flight_timeout_s(scenario)),
+      timeout_s_(flight_timeout_s(timed(scenario, config))),
       gate_(config.wait_for, bus.epoch_us(), config.max_clock_skew),
       begun_(bus.clock().now()),
       give_up_at_(begun_ + config.wait),
       vehicle_(std::move(vehicle)),
-      referee_(scenario, std::move(world), vehicle_->judged_limits()),
+      referee_(timed(scenario, config), std::move(world), vehicle_->judged_limits()),
       broadcast_(bus, referee_.world(), config, bus.clock().now()),
       sensors_(bus, config, bus.clock().now()),
       last_step_(bus.clock().now()),
@@ -72,7 +79,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
       next_goal_(next_state_),
       next_status_(next_state_) {
   needs_map_ = std::find(config.wait_for.begin(), config.wait_for.end(), kMapperProcess) != config.wait_for.end();
-  referee_.set_earliest_arrival(config.min_flight_s);
+  referee_.set_earliest_arrival(config.goals_from.empty() ? config.min_flight_s : timeout_s_);
   referee_.set_goal(std::nullopt);
   if (Navigation* navigation = vehicle_->navigation()) {
     vio_.emplace(bus, referee_.world(), scenario, *config.vio, *navigation);
@@ -180,6 +187,18 @@ void SimulatorNode::on_heartbeat(const Heartbeat& heartbeat) {
   const std::string skewed = gate_.skewed();
   if (!skewed.empty() && !logged_skewed_) log::error("{}", skewed);
   logged_skewed_ = !skewed.empty();
+  if (heartbeat.process == config_.goals_from) obey(heartbeat);
+}
+
+/// The process that sends the goals says whether the last one has come.
+void SimulatorNode::obey(const Heartbeat& heartbeat) {
+  if (!has_begun(bus_.received()) || result_) return;
+  if (heartbeat.state == ProcessState::Finished) referee_.set_earliest_arrival(config_.min_flight_s);
+  if (heartbeat.state != ProcessState::Failed) return;
+  FlightResult result = referee_.result_so_far();
+  result.outcome = FlightOutcome::Timeout;
+  result.detail = heartbeat.waiting_for;
+  end_flight(result, 0, bus_.received());
 }
 
 void SimulatorNode::on_map(const MapChunk& chunk) {

@@ -48,6 +48,9 @@ inline constexpr int kExitNotReady = 3;  ///< a required process was not ready i
 /// scenario's, with id 1, unless config.send_goal is false. A GOAL with a larger id replaces it. It is repeated at 1
 /// Hz.
 ///
+/// With config.goals_from, that process decides by its HEARTBEAT. An arrival counts once it reports Finished. If it
+/// reports Failed, the verdict is Timeout with its reason.
+///
 /// If this process was held up for more than kSetpointSilence, it publishes no vehicle message until its own
 /// VEHICLE_STATUS has come back. By then it has received all messages that were sent meanwhile. If it was held up for
 /// more than 0.4 s, setpoints may be lost. VEHICLE_STATUS then reports *not following* for a moment, and the vehicle
@@ -73,6 +76,7 @@ class SimulatorNode final : public Node {
   void on_goal(const Goal& goal);
   void on_map(const MapChunk& chunk);
   void take_goal(const Goal& goal);
+  void obey(const Heartbeat& heartbeat);
   [[nodiscard]] std::string missing(UTime now) const;
   void wait_for_processes(UTime now);
   void publish_state(UTime now);

@@ -54,38 +54,41 @@ one_folder CGAL '^CGAL/'
 one_folder GLPK '^glpk.h$'
 one_folder Ipopt '^(coin/)?Ip[A-Z].*[.]hpp$'
 one_folder Beast '^boost/beast'
+one_folder GeographicLib '^GeographicLib/'
 only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 only_in '^dds/' '^ros2/dds/' 'Cyclone DDS is for one adapter'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
-ours='^(core|perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/'
+ours='^(core|geodesy|perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/'
 never '^core/base/' "^core/(geometry|splines|world|drawing)/" 'base stands on nothing'
 never '^core/geometry/' '^core/(splines|world|drawing)/' 'geometry stands on base'
 never '^core/splines/' '^core/(world|drawing)/' 'splines stand on base and geometry'
 never '^core/world/' '^core/drawing/' 'what is drawn stands on world'
-never '^core/' '^(perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^core/' '^(geodesy|perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^perception/' '^(messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^perception/' '^(messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'perception stands on core'
-never '^messages/' '^(perception|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^geodesy/' '^(perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+  'places on the earth stand on core'
+never '^messages/' '^(perception|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'messages stand on core'
-never '^ros_messages/' '^(perception|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^ros_messages/' '^(perception|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'ROS messages stand on core'
-never '^flight_log/' '^(perception|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^flight_log/' '^(perception|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'the log stands on core and messages'
-never '^runtime/' '^(perception|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^runtime/' '^(perception|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'runtime stands on core and messages'
 
-never '^(planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
-never '^(core|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools)/' \
+never '^(planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
+never '^(core|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools)/' \
   '^python/' 'the Python package stands on all others'
 
 # Who starts the others knows how to sum up for a monitor that cannot, no messages and no other process.
-never '^launcher/' '^(perception|messages|flight_log|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|logger|campaign|viewer|tools|tests)/' \
+never '^launcher/' '^(perception|messages|flight_log|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|campaign|viewer|tools|tests)/' \
   'the launcher stands on core, runtime and the summary'
 
 # A process library knows its own folder, core, what channels are called, and for a recorder the messages.
-for process in planner predictor estimator executor simulator mavlink ros2 semantic_mapper logger monitor viewer/bridge; do
+for process in planner predictor estimator executor simulator mavlink ros2 semantic_mapper mission logger monitor viewer/bridge; do
   while IFS=$'\t' read -r file header; do
     case $file in "$process"/app/* | mavlink/sim/app/*) continue ;; esac
     case $header in
@@ -93,6 +96,9 @@ for process in planner predictor estimator executor simulator mavlink ros2 seman
       core/* | messages/channels.h | "$process"/*) ;;
       ros_messages/*) [[ $process == ros2 ]] || breach "$file includes $header: a library knows no messages of ROS" ;;
       messages/*) [[ $process == logger ]] || breach "$file includes $header: a library knows no messages" ;;
+      mavlink/frame.h | mavlink/messages.h) [[ $process == mission ]] || breach "$file includes $header: not its own" ;;
+      geodesy/*) [[ $process == semantic_mapper || $process == mission ]] ||
+        breach "$file includes $header: places on the earth are for mapper and mission" ;;
       perception/*) [[ $process == simulator || $process == predictor || $process == planner ]] ||
         breach "$file includes $header: perception serves simulator, predictor and planner" ;;
       executor/*) [[ $process == simulator || $process == mavlink ]] || breach "$file includes $header: not its own" ;;

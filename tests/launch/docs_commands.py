@@ -18,7 +18,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "launch_scripts"
-PROCESSES = {"planner", "predictor", "executor", "simulator", "mapper", "estimator", "mavlink", "autopilot_sim", "logger"}
+PROCESSES = {
+    "planner", "predictor", "executor", "simulator", "mapper", "estimator", "mavlink", "autopilot_sim", "logger", "mission"
+}
 COMMON = {"--help", "--version"}
 SHELL_WORDS = {"do", "done", "then", "else", "sudo", "time", "exec"}
 OWN_FOLDERS = r"(?:benchmarks|docs|tests|tools|viewer|\.ci)"

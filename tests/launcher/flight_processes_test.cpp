@@ -129,6 +129,22 @@ TEST(FlightProcesses, WhoDoesNotFlyChecksItsSectionNevertheless) {
   EXPECT_EQ(checked(), Words{});
 }
 
+TEST(FlightProcesses, AMissionSendsTheGoals) {
+  LaunchOptions options = demo();
+  options.mission = "/m/square.csv";
+  const auto words_of = [&](const std::string& name) {
+    for (const SupervisedProcess& p : flight_processes(options, "r", {})) {
+      if (p.name == name) return p.child.command;
+    }
+    return Words{};
+  };
+  EXPECT_THAT(words_of("tern-simulator"), ::testing::IsSupersetOf({"simulator.goals_from=tern-mission"}));
+  EXPECT_THAT(words_of("tern-mapper"), ::testing::IsSupersetOf({"mission.file=/m/square.csv"}));
+  EXPECT_THAT(words_of("tern-mission"), ::testing::IsSupersetOf({"--record", "r"}));
+  options.mission = "udpout://127.0.0.1:14550";
+  EXPECT_THAT(words_of("tern-mission"), ::testing::IsSupersetOf({"--connect", "udpout://127.0.0.1:14550"}));
+}
+
 TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {
   EXPECT_EQ(shell_line({"a", "b c", "it's", ""}), R"('a' 'b c' 'it'\''s' '')");
 }

@@ -1,0 +1,13 @@
+#include "mission/app/mission_config.h"
+
+namespace tern::mission {
+
+MissionConfig read_mission_config(ConfigSection section) {
+  MissionConfig config;
+  config.file = section.text("file", config.file,
+                             "the mission: .plan, .csv or .geojson; absolute, or relative to the scenario's folder");
+  section.read(config.progress);
+  return config;
+}
+
+}  // namespace tern::mission

@@ -1,0 +1,19 @@
+// The section `mission:` of a scenario.
+#pragma once
+
+#include <string>
+
+#include "mission/progress.h"
+#include "runtime/config.h"
+
+namespace tern::mission {
+
+struct MissionConfig {
+  std::string file;  ///< as written in the scenario; "": none
+  ProgressConfig progress;
+};
+
+/// Reads the section and checks that it has no further keys (docs/reference/keys.md). @throws ConfigError
+MissionConfig read_mission_config(ConfigSection section);
+
+}  // namespace tern::mission

@@ -1,0 +1,191 @@
+#include "mission/app/mission_node.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "messages/batching.h"
+#include "mission/check.h"
+#include "runtime/log.h"
+
+namespace tern::mission {
+namespace {
+
+constexpr Duration kGoalPeriod{1'000'000};
+/// The name of an uploaded mission, in messages and records.
+constexpr const char* kUploaded = "uploaded mission";
+
+}  // namespace
+
+MissionNode::MissionNode(Bus& bus, MissionSetup setup)
+    : bus_(bus), setup_(std::move(setup)), record_(setup_.folder), listens_until_(bus.clock().now() + kListen) {
+  bus_.subscribe(channels::kUavState, [this](const UavState& state) { on_state(state); });
+  bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) {
+    following_ = status.following;
+    if (progress_) progress_->set_following(following_, bus_.received());
+  });
+  bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
+  bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
+  bus_.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
+  if (setup_.link) {
+    MissionTaker taker{[this](const std::vector<Item>& items) { return take_upload(items); },
+                       [this](Order order) { return obey(order); }};
+    station_ =
+        std::make_unique<GroundStation>(std::move(setup_.link), setup_.system, setup_.site.frame, std::move(taker));
+  }
+  is_ordered_ = setup_.mission.has_value();
+  if (!setup_.mission) {
+    if (auto steps = record_.read_upload()) {
+      log::info("goes on with the mission that was uploaded before");
+      setup_.mission = Mission{kUploaded, std::move(*steps)};
+      is_ordered_ = true;
+    }
+  }
+  if (!setup_.mission) return;
+  if (station_) station_->set_items(items_of(setup_.mission->steps, setup_.site));
+  set_mission(std::move(*setup_.mission));
+}
+
+void MissionNode::set_mission(Mission mission) {
+  log::info("{}: {} steps, from {} to {}", mission.file, mission.steps.size(), mission.steps.front().name,
+            mission.steps.back().name);
+  progress_.emplace(std::move(mission), setup_.config, setup_.uav.limits);
+  progress_->set_following(following_, bus_.clock().now());
+  if (state_) progress_->receive(*state_, bus_.clock().now());
+  has_started_ = false;
+}
+
+/// Only the first map is judged: a later one is the planner's affair.
+void MissionNode::on_map(const MapChunk& chunk) {
+  if (map_) return;
+  const auto complete = assembler_.add(chunk);
+  if (!complete || !*complete) return;
+  map_ = assembler_.take();
+  const std::string blocked = progress_ ? steps_blocked(progress_->mission(), *map_, setup_.uav.body) : "";
+  if (blocked.empty()) return;
+  log::error("{}: {}; move it, or correct map and fences", progress_->mission().file, blocked);
+  exit_code_ = kExitCannotFly;
+}
+
+void MissionNode::on_state(const UavState& state) {
+  state_ = state;
+  if (progress_) progress_->receive(state, bus_.received());
+}
+
+void MissionNode::on_goal(const Goal& goal) {
+  if (goal.header.name.sender_epoch_us == bus_.epoch_us()) return;
+  if (has_started_) return progress_->receive(goal, bus_.received());
+  if (!heard_ || goal.id > heard_->id) heard_ = goal;
+}
+
+void MissionNode::on_predictions(const TrackSet& batch) {
+  auto set = batches_.add(batch);
+  const auto followed = progress_ ? progress_->followed_track() : std::nullopt;
+  if (!set || !followed) return;
+  const TrackSet whole = join_batches(std::move(*set));
+  const auto track =
+      std::find_if(whole.tracks.begin(), whole.tracks.end(), [&](const Track& t) { return t.id == *followed; });
+  if (track == whole.tracks.end()) return;
+  progress_->receive_track(track->motion.sample(bus_.received() + kFollowAhead).p, bus_.received());
+}
+
+std::string MissionNode::take_upload(const std::vector<Item>& items) {
+  const bool is_flown = has_started_ && progress_->stand() != Stand::Done && progress_->stand() != Stand::Failed;
+  if (is_flown) return "a mission is being flown: let it end first";
+  if (!map_) return "tern-mission has no map yet: upload again when the mapper has sent it";
+  if (items.empty()) {
+    progress_.reset();
+    is_ordered_ = has_started_ = false;
+    return "";
+  }
+  auto steps = steps_of(items, setup_.site);
+  if (!steps) return steps.error().message;
+  Mission mission{kUploaded, std::move(*steps)};
+  for (const std::string& why : {steps_outside(mission, setup_.uav.flight_box, setup_.uav.body),
+                                 steps_blocked(mission, *map_, setup_.uav.body)}) {
+    if (!why.empty()) return why;
+  }
+  if (!record_.write_upload(mission.steps)) log::error("the uploaded mission cannot be recorded; a restart loses it");
+  set_mission(std::move(mission));
+  is_ordered_ = false;
+  is_fresh_ = true;
+  return "";
+}
+
+std::string MissionNode::obey(Order order) {
+  const UTime now = bus_.clock().now();
+  if (!progress_) return "there is no mission: upload one";
+  switch (order) {
+    case Order::Start:
+      if (has_started_) return "the mission was started before";
+      is_ordered_ = true;
+      return "";
+    case Order::Pause: return has_started_ && progress_->pause(now) ? "" : "the mission is not being flown";
+    case Order::GoOn: return has_started_ && progress_->go_on(now) ? "" : "the mission is not paused";
+  }
+  return "";
+}
+
+UTime MissionNode::next_wakeup() const {
+  UTime next = has_started_ ? progress_->next_wakeup() : std::max(listens_until_, next_hold_);
+  if (station_) next = std::min(next, station_->next_wakeup());
+  return next;
+}
+
+void MissionNode::step(UTime now) {
+  if (exit_code_) return;
+  if (station_) station_->step(now, progress_ ? &*progress_ : nullptr, state_ ? &*state_ : nullptr);
+  if (!has_started_ && map_ && state_ && now >= listens_until_) is_ordered_ ? start(now) : hold(now);
+  if (!has_started_) {
+    if (now >= listens_until_ && !map_) listens_until_ = now + kListen;
+    return;
+  }
+  note();
+  if (const auto goal = progress_->due(now)) bus_.publish(channels::kGoal, *goal);
+}
+
+void MissionNode::start(UTime now) {
+  has_started_ = true;
+  const auto remembered = is_fresh_ ? std::nullopt : record_.read(progress_->mission());
+  const bool is_held = hold_ && (!heard_ || heard_->id <= hold_->id);
+  progress_->start(is_held ? hold_ : heard_, remembered, now);
+  if (progress_->step() > 0) log::info("goes on at {}", progress_->text());
+}
+
+/// The planner needs a goal before the vehicle can take off.
+void MissionNode::hold(UTime now) {
+  if (now < next_hold_) return;
+  next_hold_ = now + kGoalPeriod;
+  if (!hold_) {
+    hold_.emplace();
+    hold_->id = goal_id(kNoStep, now, heard_ ? heard_->id : 0);
+    hold_->mode = GoalMode::Hold;
+  }
+  bus_.publish(channels::kGoal, *hold_);
+}
+
+/// Records and logs what has changed.
+void MissionNode::note() {
+  std::string state = fmt::format("{} {}", static_cast<int>(progress_->stand()), progress_->step());
+  for (const auto& at : progress_->reached()) state += at ? '1' : '0';
+  if (state == std::exchange(noted_, state)) return;
+  progress_->stand() == Stand::Failed ? log::error("{}", progress_->text()) : log::info("{}", progress_->text());
+  if (record_.write(*progress_)) return;
+  if (!std::exchange(has_failed_to_write_, true)) log::error("mission.json and mission.txt cannot be written");
+}
+
+NodeHealth MissionNode::health() const {
+  if (!map_) return {ProcessState::Waiting, "a semantic map"};
+  if (!state_) return {ProcessState::Waiting, "UAV_STATE"};
+  if (!progress_) return {ProcessState::Ready, "waits for a mission of the ground station"};
+  if (!is_ordered_) return {ProcessState::Ready, "waits for the ground station to start the mission"};
+  if (!has_started_) return {ProcessState::Waiting, "the vehicle's goal, if an earlier process sent one"};
+  switch (progress_->stand()) {
+    case Stand::Done: return {ProcessState::Finished, progress_->text()};
+    case Stand::Failed: return {ProcessState::Failed, progress_->text()};
+    default: return {ProcessState::Ready, progress_->text()};
+  }
+}
+
+}  // namespace tern::mission

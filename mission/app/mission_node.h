@@ -1,0 +1,89 @@
+// tern-mission: flies a mission by goals.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/world/scenario.h"
+#include "core/world/voxel_map.h"
+#include "mission/app/ground_station.h"
+#include "mission/app/mission_config.h"
+#include "mission/app/mission_record.h"
+#include "mission/progress.h"
+#include "runtime/batches.h"
+#include "runtime/bus.h"
+#include "runtime/node.h"
+
+namespace tern::mission {
+
+inline constexpr int kExitCannotFly = 2;  ///< a step lies in an obstacle of the map or beyond a fence
+
+/// The inputs of a MissionNode.
+struct MissionSetup {
+  std::optional<Mission> mission;  ///< of a file; nullopt: a ground station uploads one
+  Site site;
+  UavSpec uav;
+  ProgressConfig config;
+  std::string folder;                   ///< for the record; "": none is written
+  std::unique_ptr<mavlink::Link> link;  ///< to a ground station; null: none
+  std::uint8_t system = 1;              ///< MAVLink's id of the vehicle
+};
+
+/// Connects Progress to the bus. Receives UAV_STATE, VEHICLE_STATUS, GOAL, SEMANTIC_MAP and PREDICTIONS; publishes
+/// GOAL.
+///
+/// 1. It waits for a map, and refuses steps in occupied voxels. A file's mission then ends the process with
+///    kExitCannotFly, before any goal is sent; an upload is refused.
+/// 2. It listens for kListen, since the vehicle repeats its goal at 1 Hz: after a restart the mission goes on.
+/// 3. Without a mission it sends a goal to hold, until one is uploaded and started.
+/// 4. It sends goals until the mission is done or has failed. HEARTBEAT then says Finished or Failed, and the last goal
+///    is repeated until the process is ended.
+class MissionNode final : public Node {
+ public:
+  MissionNode(Bus& bus, MissionSetup setup);
+
+  [[nodiscard]] UTime next_wakeup() const override;
+  void step(UTime now) override;
+  [[nodiscard]] NodeHealth health() const override;
+  [[nodiscard]] std::optional<int> finished() const override { return exit_code_; }
+
+ private:
+  void on_map(const MapChunk& chunk);
+  void on_goal(const Goal& goal);
+  void on_predictions(const TrackSet& batch);
+  void on_state(const UavState& state);
+  /// Sets the mission to be flown. It waits for start().
+  void set_mission(Mission mission);
+  [[nodiscard]] std::string take_upload(const std::vector<Item>& items);
+  [[nodiscard]] std::string obey(Order order);
+  void start(UTime now);
+  void hold(UTime now);
+  void note();
+
+  Bus& bus_;
+  MissionSetup setup_;
+  std::optional<Progress> progress_;  ///< of the mission; nullopt: none is there
+  MissionRecord record_;
+  std::unique_ptr<GroundStation> station_;
+  MapAssembler assembler_;
+  std::optional<VoxelMap> map_;
+  BatchCollector<TrackSet> batches_;
+  std::optional<UavState> state_;
+  bool following_ = false;
+  bool is_ordered_ = false;  ///< to fly: by a file, or by the ground station
+  bool has_started_ = false;
+  std::optional<Goal> heard_;  ///< the goal with the largest id, before the start
+  std::optional<Goal> hold_;   ///< the goal while there is no mission
+  UTime listens_until_, next_hold_;
+  bool is_fresh_ = false;  ///< uploaded to this process: an older record is not its own
+  std::optional<int> exit_code_;
+  std::string noted_;  ///< the state that was recorded last
+  bool has_failed_to_write_ = false;
+};
+
+/// The vehicle repeats its goal every second.
+inline constexpr Duration kListen{1'500'000};
+
+}  // namespace tern::mission

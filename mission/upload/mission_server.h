@@ -1,0 +1,103 @@
+// The vehicle's side of MAVLink's mission protocol: https://mavlink.io/en/services/mission.html
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/time.h"
+#include "mavlink/messages.h"
+#include "mission/items.h"
+
+namespace tern::mission {
+
+/// Orders of a ground station.
+enum class Order : std::uint8_t { Start, Pause, GoOn };
+
+/// The process behind the server.
+struct MissionTaker {
+  /// Takes an uploaded mission. An empty list takes the mission away. @return "" or why it is refused
+  std::function<std::string(const std::vector<Item>&)> take;
+  /// Carries an order out. @return "" or why it is refused
+  std::function<std::string(Order)> obey;
+};
+
+/// Serves uploads, downloads and orders of ground stations. Pure: frames in, frames out.
+///
+/// | message                            | answer |
+/// |------------------------------------|-------------------------------------------------------------------------------|
+/// | MISSION_COUNT                      | MISSION_REQUEST_INT 0; each item asks for the next one | | MISSION_ITEM_INT,
+/// the expected one | the next MISSION_REQUEST_INT, or MISSION_ACK after the last one               | | … another one
+/// | MISSION_REQUEST_INT of the expected one                                       | | MISSION_REQUEST_LIST |
+/// MISSION_COUNT                                                                 | | MISSION_REQUEST_INT, _REQUEST |
+/// MISSION_ITEM_INT; MISSION_ACK with an error beyond the last item              | | MISSION_CLEAR_ALL | MISSION_ACK |
+/// | COMMAND_LONG 300 MISSION_START, 193 DO_PAUSE_CONTINUE | COMMAND_ACK; every other command is unsupported |
+///
+/// - A mission that is refused is named in STATUSTEXT, in parts of 50 bytes, before its MISSION_ACK.
+/// - An expected item is requested again after kRequestAgain, and after kTries the upload is dropped.
+/// - A second ground station's upload is denied while one is under way.
+/// - Fences and rally points are not supported here: an upload of any, and a download, is refused.
+class MissionServer {
+ public:
+  MissionServer(mavlink::Address self, MissionTaker taker) : self_(self), taker_(std::move(taker)) {}
+
+  /// Returns the answers to a frame.
+  std::vector<mavlink::Frame> receive(const mavlink::Frame& frame, UTime now);
+  /// Returns requests that are due again.
+  std::vector<mavlink::Frame> step(UTime now);
+  /// Sets the items that a download returns.
+  void set_items(std::vector<mavlink::MissionItemInt> items) { items_ = std::move(items); }
+  [[nodiscard]] const std::vector<mavlink::MissionItemInt>& items() const { return items_; }
+  /// A message as a frame from this vehicle.
+  template <class M>
+  mavlink::Frame frame_of(const M& message) {
+    return mavlink::to_frame(message, self_, sequence_++);
+  }
+
+ private:
+  struct Upload {
+    mavlink::Address peer;
+    std::size_t count = 0;
+    std::vector<mavlink::MissionItemInt> items;
+    UTime asked;
+    int tries = 0;
+  };
+  using Frames = std::vector<mavlink::Frame>;
+  [[nodiscard]] bool is_for_me(std::uint8_t system, std::uint8_t component) const;
+  template <class M, class Handle>
+  bool handle(const mavlink::Frame& frame, const Handle& with);
+  void on_count(const mavlink::MissionCount& count, mavlink::Address peer, UTime now, Frames& out);
+  void on_item(const mavlink::MissionItemInt& item, mavlink::Address peer, UTime now, Frames& out);
+  void on_command(const mavlink::CommandLong& command, mavlink::Address peer, Frames& out);
+  void send_item(std::uint16_t seq, std::uint8_t type, mavlink::Address peer, Frames& out);
+  void finish(mavlink::Address peer, Frames& out);
+  void request(UTime now, Frames& out);
+  void acknowledge(std::uint8_t result, std::uint8_t type, mavlink::Address peer, Frames& out);
+  void say(const std::string& text, Frames& out);
+
+  mavlink::Address self_;
+  MissionTaker taker_;
+  std::optional<Upload> upload_;
+  std::vector<mavlink::MissionItemInt> items_;
+  std::uint8_t sequence_ = 0;
+  std::uint16_t text_id_ = 0;
+};
+
+/// Returns an item of the wire. Coordinates of 2³¹ − 1 are not given.
+Item item_of(const mavlink::MissionItemInt& wire);
+
+/// Returns steps as items of the wire, for a download: waypoints relative to the origin; without an origin in W.
+/// Followed tracks have no item.
+std::vector<mavlink::MissionItemInt> items_of(const std::vector<Step>& steps, const Site& site);
+
+inline constexpr Duration kRequestAgain{1'500'000};
+inline constexpr int kTries = 5;
+inline constexpr std::size_t kMaxUploadedItems = 2'000;
+
+/// MAV_MISSION_RESULT.
+inline constexpr std::uint8_t kAccepted = 0, kUnsupported = 3, kNoSpace = 4, kInvalid = 5, kInvalidSequence = 13,
+                              kDenied = 14, kCancelled = 15;
+
+}  // namespace tern::mission

@@ -1,0 +1,119 @@
+// Damaged files: the readers of missions and fences return a value or an error for any bytes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/base/random.h"
+#include "mission/readers/mission_file.h"
+#include "semantic_mapper/sources/fence_file.h"
+#include "tests/mission/some_site.h"
+#include "tests/support/effort.h"
+
+namespace tern::mission {
+namespace {
+
+const int kMutations = support::at_effort(10'000);
+
+/// Values that a text may be given: out of range, of another type, no numbers.
+constexpr const char* kWords[] = {"null",
+                                  "true",
+                                  "-1",
+                                  "1e999",
+                                  "nan",
+                                  "inf",
+                                  "-0",
+                                  "65536",
+                                  "\"\"",
+                                  "[]",
+                                  "{}",
+                                  "1e-320",
+                                  "99999999999999999999",
+                                  "\xff\xfe",
+                                  ",",
+                                  "\n",
+                                  "\"",
+                                  "-",
+                                  "0x10"};
+
+/// Damages a text: overwrites, removes, repeats, inserts a word, replaces a number, or cuts it off.
+std::string mutated(std::string text, Rng& rng) {
+  for (int n = 1 + static_cast<int>(rng.uniform(0, 4)); n > 0 && !text.empty(); --n) {
+    const auto at = static_cast<std::size_t>(rng.uniform(0, static_cast<double>(text.size())));
+    const auto length = static_cast<std::size_t>(rng.uniform(0, 12));
+    const char* const word = kWords[static_cast<std::size_t>(rng.uniform(0, std::size(kWords)))];
+    switch (static_cast<int>(rng.uniform(0, 7))) {
+      case 0: text[at] = static_cast<char>(rng.uniform(-128, 128)); break;
+      case 1: text.erase(at, length); break;
+      case 2: text.insert(at, text.substr(at, length)); break;
+      case 3: text.insert(at, word); break;
+      case 4:
+      case 5: {
+        const std::size_t first = text.find_first_of("0123456789", at);
+        if (first == std::string::npos) break;
+        const std::size_t last = std::min(text.find_first_not_of("0123456789.", first), text.size());
+        text.replace(first, last - first, word);
+        break;
+      }
+      default: text.resize(at); break;
+    }
+  }
+  return text;
+}
+
+void expect_sane(std::string_view text, const std::string& file) {
+  const auto mission = parse_mission(text, file, testing::some_site());
+  if (!mission) {
+    ASSERT_TRUE(mission.error().message.starts_with(file + ": ")) << mission.error().message;
+    ASSERT_LT(mission.error().message.size(), 400u);
+    return;
+  }
+  ASSERT_FALSE(mission->steps.empty());
+  ASSERT_NE(mission->steps.back().action, Action::Pass);
+  for (const Step& step : mission->steps) {
+    ASSERT_TRUE(step.position.allFinite());
+    ASSERT_LE(step.position.cwiseAbs().maxCoeff(), 2.0 * kMaxDistance);
+    ASSERT_GE(step.hold_s, 0.0);
+    ASSERT_GE(step.radius, 0.0);
+    for (const char c : step.name) ASSERT_TRUE(c >= ' ' && c <= '~');
+  }
+}
+
+void expect_sane_fences(std::string_view text, const std::string& file) {
+  const auto fences = parse_fences(text, file);
+  if (!fences) {
+    ASSERT_TRUE(fences.error().message.starts_with(file + ": ")) << fences.error().message;
+    return;
+  }
+  for (const Fence& fence : *fences) {
+    ASSERT_LT(fence.floor, fence.ceiling);
+    const auto in_world = to_world(fence, *testing::some_site().frame);
+    ASSERT_TRUE(in_world.has_value());
+  }
+}
+
+TEST(HostileMissions, MutatedPlansGiveAValueOrAnError) {
+  Rng rng(1);
+  for (int i = 0; i < kMutations && !HasFatalFailure(); ++i) {
+    const std::string text = mutated(testing::kPlan, rng);
+    expect_sane(text, "a.plan");
+    expect_sane_fences(text, "a.plan");
+  }
+}
+
+TEST(HostileMissions, MutatedCsvGivesAValueOrAnError) {
+  Rng rng(2);
+  for (int i = 0; i < kMutations && !HasFatalFailure(); ++i) expect_sane(mutated(testing::kCsv, rng), "a.csv");
+}
+
+TEST(HostileMissions, MutatedGeoJsonGivesAValueOrAnError) {
+  Rng rng(3);
+  for (int i = 0; i < kMutations && !HasFatalFailure(); ++i) {
+    const std::string text = mutated(testing::kGeoJson, rng);
+    expect_sane(text, "a.geojson");
+    expect_sane_fences(text, "a.geojson");
+  }
+}
+
+}  // namespace
+}  // namespace tern::mission
