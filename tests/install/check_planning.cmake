@@ -23,7 +23,7 @@ execute_process(COMMAND ${WORK}/by_pkg_config ${LOG} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_LIBDIR=${WORK} PKG_CONFIG_PATH= ${configure} -B ${WORK}/without
                 RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
 string(REGEX REPLACE "[ \n]+" " " said "${said}")
-if(result EQUAL 0 OR NOT said MATCHES "component replay needs lcm \\(Debian: liblcm-dev\\)")
+if(result EQUAL 0 OR NOT said MATCHES "component replay needs lcm \\(Debian: liblcm-dev\\), libsodium")
   message(FATAL_ERROR "not told that LCM is missing: ${said}")
 endif()
 file(WRITE ${WORK}/plans_only/CMakeLists.txt
