@@ -11,8 +11,8 @@ namespace {
 
 /// Ids of cells are (cell + 1) · kPerCell + index; the other landmarks have smaller ids.
 constexpr std::uint64_t kPerCell = 1u << 16;
-constexpr int kCellsAside = 1 << 20;   ///< cells on each side of 0 per axis
-constexpr double kHorizonBand = 0.05;  ///< rad
+constexpr std::int64_t kCellsAside = 1 << 20;  ///< cells on each side of 0 per axis
+constexpr double kHorizonBand = 0.05;          ///< rad
 
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t part) {
   std::uint64_t x = seed + 0x9e3779b97f4a7c15ULL * (part + 1);
@@ -22,7 +22,7 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t part) {
 }
 
 std::uint64_t cell_number(int i, int j) {
-  return static_cast<std::uint64_t>(i + kCellsAside) * (2u * kCellsAside) + static_cast<std::uint64_t>(j + kCellsAside);
+  return static_cast<std::uint64_t>((i + kCellsAside) * 2 * kCellsAside + j + kCellsAside);
 }
 
 double density_of(const LandmarkSpec& spec, const std::string& class_name) {
@@ -45,8 +45,12 @@ bool covers(const Region& region, Vec3 p) {
 }  // namespace
 
 int poisson(Rng& rng, double mean) {
-  int count = 0;
-  for (double sum = -std::log1p(-rng.uniform()); sum < mean; sum -= std::log1p(-rng.uniform())) ++count;
+  int count = -1;
+  double sum = 0.0;
+  do {
+    sum -= std::log1p(-rng.uniform());
+    ++count;
+  } while (sum < mean);
   return count;
 }
 
