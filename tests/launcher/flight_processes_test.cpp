@@ -1,5 +1,6 @@
 #include "launcher/flight_processes.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
