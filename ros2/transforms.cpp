@@ -102,9 +102,9 @@ Result<RigidTransform> TransformBuffer::find(const std::string& base, const std:
                                              std::optional<UTime> at) const {
   std::string root, base_root;
   const std::string from = plain(frame);
-  const auto pose = to_root(from, base, at, root);
+  auto pose = to_root(from, base, at, root);
   if (!pose || root == base) return pose;
-  const auto base_pose = to_root(base, "", at, base_root);
+  auto base_pose = to_root(base, "", at, base_root);
   if (!base_pose) return base_pose;
   if (root != base_root) return fail(fmt::format("no transform leads from {} to {}", from, base));
   return base_pose->inverse().after(*pose);
