@@ -60,7 +60,7 @@ tern_component(messages ABOUT "Tern's messages as bytes, and logs of flights"
   HEADERS messages flight_log NOT "messages/(fields|form|wire)[.]h$"
   REQUIRES tern-core)
 tern_component(planner ABOUT "plan(): one certified trajectory for one request"
-  LIBRARIES tern_planner tern_planner_optimization tern_planner_search tern_planner_global_path tern_planner_semantics
+  LIBRARIES tern_planner tern_planner_heading tern_planner_optimization tern_planner_search tern_planner_global_path tern_planner_semantics
             tern_planner_safety
   HEADERS planner NOT "planner/app"
   REQUIRES tern-core)

@@ -244,6 +244,7 @@ UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
   limits.finish();
   if (section.has("dynamics")) section.section("dynamics").read(uav.limits.dynamics.emplace());
   uav.body = read_body(section.section("body"), uav.body);
+  section.section("heading").read(uav.heading);
   if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));
   section.finish();
   const Box places = places_within(uav.flight_box, body_box(uav.body));

@@ -131,6 +131,14 @@ std::string body_yaml(const Body& body) {
   return fmt::format("{{vertices: [{}]}}", vertices);
 }
 
+/// Headings are written only if they differ from the default, since few scenarios plan them.
+std::string heading_yaml(const HeadingLimits& heading) {
+  if (heading == HeadingLimits{}) return "";
+  return fmt::format("  heading: {{rate_max: {}, acceleration_max: {}, view: {}}}\n",
+                     yaml_number(heading.rate_max_deg_s), yaml_number(heading.acceleration_max_deg_s2),
+                     yaml_number(heading.view_deg));
+}
+
 std::string uav_yaml(const UavSpec& uav) {
   std::string dynamics;
   if (const auto& d = uav.limits.dynamics) {
@@ -141,7 +149,8 @@ std::string uav_yaml(const UavSpec& uav) {
   return fmt::format("uav:\n  start: {}\n  goal: {}\n", to_yaml(uav.start), to_yaml(uav.goal)) +
          fmt::format("  limits:\n    v_max: {}\n    a_max: {}\n    j_max: {}\n", to_yaml(uav.limits.v_max),
                      to_yaml(uav.limits.a_max), to_yaml(uav.limits.j_max)) +
-         dynamics + fmt::format("  body: {}\n  flight_box: {}\n", body_yaml(uav.body), to_yaml(uav.flight_box));
+         dynamics + heading_yaml(uav.heading) +
+         fmt::format("  body: {}\n  flight_box: {}\n", body_yaml(uav.body), to_yaml(uav.flight_box));
 }
 
 std::string shape_yaml(const Box& box) { return "box: " + to_yaml(box); }

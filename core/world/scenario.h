@@ -11,6 +11,7 @@
 #include "core/base/geodetic_point.h"
 #include "core/base/types.h"
 #include "core/world/fence.h"
+#include "core/world/heading.h"
 #include "core/world/region.h"
 #include "core/world/vehicle.h"
 
@@ -106,6 +107,7 @@ struct UavSpec {
   Vec3 goal = Vec3(75.0, -1.0, 1.0);  ///< W, m
   Limits limits;
   Body body;
+  HeadingLimits heading;                                           ///< of planned headings
   Box flight_box = box_around(Vec3::Zero(), Vec3::Constant(1e4));  ///< the body stays inside, W, m
 };
 

@@ -69,8 +69,9 @@ void AnswerDesk::send_incumbent(UTime now) {
 void AnswerDesk::send(Plan plan, const PlanTiming& timing) {
   plan.inputs.configuration_hash = configuration_hash_;
   plan.inputs.planner_build = planner_build();
-  bus_.publish(channels::kPlan, std::move(plan));
+  bus_.publish(channels::kPlan, plan);
   bus_.publish(channels::kPlanTiming, timing);
+  if (sent_) sent_(plan);
 }
 
 }  // namespace tern

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "core/world/horizon.h"
 #include "runtime/bus.h"
@@ -31,6 +33,8 @@ class AnswerDesk {
   explicit AnswerDesk(Bus& bus, std::uint64_t configuration_hash)
       : bus_(bus), configuration_hash_(configuration_hash) {}
 
+  /// Calls `sent` with each plan right after it was published.
+  void on_sent(std::function<void(const Plan&)> sent) { sent_ = std::move(sent); }
   /// Opens a request that arrived at `now`.
   void open(const HorizonRequest& request, UTime now);
   /// Takes an incumbent from the worker.
@@ -55,6 +59,7 @@ class AnswerDesk {
 
   Bus& bus_;
   std::uint64_t configuration_hash_;
+  std::function<void(const Plan&)> sent_;
   mutable std::mutex mutex_;
   std::optional<Open> open_;
 };

@@ -9,6 +9,7 @@
 #include "core/world/scenario.h"
 #include "core/world/search_view.h"
 #include "planner/app/answer_desk.h"
+#include "planner/app/heading_desk.h"
 #include "planner/app/worker.h"
 #include "planner/app/world_intake.h"
 #include "planner/plan_workspace.h"
@@ -61,6 +62,7 @@ class PlannerNode final : public Node {
   PlannerConfig config_;
   PlannerExecution execution_;
   WorldIntake intake_;
+  HeadingDesk headings_;
   AnswerDesk desk_;
   Header last_request_;                    ///< header of the newest request: the network may deliver messages late
   std::optional<HorizonRequest> waiting_;  ///< the newest request that arrived while the worker was busy

@@ -79,6 +79,9 @@ struct OptimizationConfig {
 /// The largest J.
 inline constexpr int kMaxPlanIntervals = 12;
 
+/// Where the vehicle looks: in the direction of flight (the executor decides), or where a planned heading points.
+enum class HeadingMode { Along, Planned };
+
 struct PlannerConfig {
   int intervals = 6;             ///< J
   double sphere_radius_m = 4.0;  ///< r
@@ -98,6 +101,7 @@ struct PlannerConfig {
   double exposure_margin_m = 1.0;
   double goal_tolerance_m = 0.05;
   bool publish_search = false;
+  HeadingMode heading = HeadingMode::Along;
   SearchConfig search;
   OptimizationConfig optimization;
 
@@ -128,6 +132,8 @@ struct PlannerConfig {
       "the path to the goal includes the exposure cost of regions; false: only plans within S do");
     v("publish_search", publish_search,
       "publish SEARCH_VIEW after each answer: the nodes of the last search, for tern-viewer. Answers are the same");
+    v("heading", heading, KnobWords<HeadingMode>{{"along", HeadingMode::Along}, {"planned", HeadingMode::Planned}},
+      "where the vehicle looks: along its flight, or where PLAN_HEADING points, which is then sent with each plan");
     v("search", search);
     v("optimization", optimization);
   }

@@ -2,6 +2,7 @@
 // where they are defined.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/time.h"
@@ -168,5 +169,32 @@ inline constexpr double kMinStep = 1e-8;
 /// by the number of constraints.
 inline constexpr double kFirstBarrierShare = 0.1;
 inline constexpr double kLastBarrierShare = 0.3;
+
+// ---- Headings (heading/)
+
+/// Width of the cells in which the search merges yaws, as a number of cells of a full turn.
+inline constexpr int kYawCells = 72;
+/// The grid has at least this many rates up to the largest one.
+inline constexpr double kRateSteps = 4.0;
+/// Cost of turning, m per rad²/s: a turn at 2 rad/s costs 0.2 m each second.
+inline constexpr double kTurnCost = 0.05;
+/// The way ahead is looked at for this time and the time to stop, s.
+inline constexpr double kSightAhead = 1.0;
+/// Number of places at which the way ahead is looked at.
+inline constexpr int kPathPlaces = 6;
+/// Places nearer than this have no direction, m.
+inline constexpr double kNearestPlace = 0.3;
+/// The way ahead of a slower vehicle counts as that of one of this speed, m/s.
+inline constexpr double kLeastPathSpeed = 0.5;
+/// Step and number of the times at which the plan's distance to tracks is tested, s.
+inline constexpr Duration kTrackStep{250'000};
+inline constexpr int kTrackSteps = 12;
+/// More α than this counts as this, m.
+inline constexpr double kAlphaCap = 1.5;
+/// The worth of a track falls by e per this distance from the plan (m), and per this time (s).
+inline constexpr double kTrackReach = 1.0;
+inline constexpr double kTrackSoon = 1.5;
+/// Number of tracks that are looked at.
+inline constexpr std::size_t kTracksSeen = 8;
 
 }  // namespace tern

@@ -1,0 +1,36 @@
+// The heading of a plan: where the vehicle looks while it flies.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/world/heading.h"
+#include "core/world/horizon.h"
+#include "core/world/track.h"
+#include "planner/heading/heading_search.h"
+
+namespace tern {
+
+/// Returns the first two control points of a heading with this yaw, in (−π, π], and rate.
+HeadingStart heading_start(const YawSample& at, Duration interval);
+
+/// Returns the yaw of a heading that follows none, at rate 0. It is the direction of flight at t_s. A slow vehicle
+/// takes the direction to the first place of its plan that is kNearestPlace away, or to its local goal.
+/// @return nullopt if the plan stays where it is, so that no direction is better than another
+std::optional<YawSample> flight_direction(const HorizonRequest& request, const Plan& plan);
+
+/// Plans the heading of a plan from t_s on, in as many intervals of the same length. After KeepCommitted it looks along
+/// what is left of the committed trajectory. Pure and deterministic.
+///
+/// 1. Each term names the directions that are worth looking at, at the Greville abscissa of each control point:
+///    the way ahead (path_term.h), tracks (track_term.h).
+/// 2. search_heading() finds the yaw that misses least.
+/// 3. The terms are evaluated along it: their values are in the message.
+///
+/// @param tracks  those of the predictions that the plan names; empty without predictions
+/// @return nullopt for NoPlan, and if search_heading() finds none. The header is empty
+std::optional<PlanHeading> plan_heading(const HorizonRequest& request, const Plan& plan,
+                                        const std::vector<Track>& tracks, const HeadingLimits& limits,
+                                        const HeadingStart& start);
+
+}  // namespace tern
