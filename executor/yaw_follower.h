@@ -4,6 +4,7 @@
 #include "core/base/knobs.h"
 #include "core/base/time.h"
 #include "core/base/types.h"
+#include "core/world/heading.h"
 
 namespace tern {
 
@@ -35,6 +36,11 @@ class YawFollower {
   /// Advances to `now`, where the vehicle flies at v (W, m/s). A time before the last one changes nothing.
   /// @return the yaw
   double follow(const Vec3& v, UTime now);
+
+  /// Advances to `now`, where the planned yaw is `planned`. A heading that the yaw joins is flown exactly. Otherwise
+  /// the yaw turns to it within the heading's limits. It is on the heading once one step can match yaw and rate.
+  /// @return the yaw
+  double follow(const YawSample& planned, UTime now, const HeadingLimits& limits);
 
   [[nodiscard]] double yaw() const { return yaw_; }    ///< rad, (−π, π]
   [[nodiscard]] double rate() const { return rate_; }  ///< rad/s

@@ -35,13 +35,16 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
       config_(config),
       guard_(centre_box(uav.flight_box, uav.body), config.start_reach_m),
       tube_(config.tube_m),
+      heading_(uav.heading),
       next_setpoint_(bus.clock().now()),
       next_goal_(next_setpoint_),
-      next_refusal_log_(next_setpoint_) {
+      next_refusal_log_(next_setpoint_),
+      next_heading_log_(next_setpoint_) {
   bus_.subscribe(channels::kUavState, [this](const UavState& state) { on_state(state); });
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
+  bus_.subscribe(channels::kPlanHeading, [this](const PlanHeading& heading) { on_heading(heading); });
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
 
@@ -113,7 +116,9 @@ void ExecutorNode::fall_silent(UTime now) {
 }
 
 void ExecutorNode::drop_unsent_plan() {
+  const UTime start = executor_->committed().newest_start();
   if (!executor_->drop_unsent_plan(last_setpoint_)) return;
+  heading_.drop_from(start);
   log::info("dropped the newest plan: no request has reported it to the vehicle");
 }
 
@@ -152,6 +157,7 @@ void ExecutorNode::rejoin(const UavState& state, bool counts) {
     from.motion.v += later_s * state.motion.a;
   }
   executor_->rejoin(from);
+  heading_.clear();
   last_setpoint_ = from.at;
   if (!is_commanded()) return;
   Box flown;
@@ -170,6 +176,7 @@ void ExecutorNode::lose(const std::string& why) {
 void ExecutorNode::begin(const UavState& state) {
   const Vec3& p = state.motion.p;
   executor_.emplace(uav_, state, config_);
+  heading_.clear();
   update_tube(state.at);
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
@@ -257,6 +264,8 @@ void ExecutorNode::on_plan(const Plan& plan) {
   if (!executor_) return;
   const UTime now = bus_.clock().now();
   const Adoption adoption = executor_->consider(plan, now);
+  if (adoption.verdict == Verdict::Adopted) heading_.on_adopted(plan, plan.trajectory.start);
+  if (adoption.verdict == Verdict::Kept && plan.request_id == asked_.first) heading_.on_kept(plan, asked_.second);
   if (!is_refusal(adoption.verdict)) return tube_.on_answer(plan, executor_->at_rest(now), now);
   if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
   ++unlogged_refusals_;
@@ -265,6 +274,18 @@ void ExecutorNode::on_plan(const Plan& plan) {
             to_string(adoption), adoption.detail, unlogged_refusals_);
   unlogged_refusals_ = 0;
   next_refusal_log_ = now + kRefusalLogPeriod;
+}
+
+void ExecutorNode::on_heading(const PlanHeading& heading) {
+  if (!executor_) return;
+  const UTime now = bus_.clock().now();
+  const HeadingAdoption adoption = heading_.consider(heading, now);
+  if (adoption.verdict == HeadingVerdict::Adopted) return;
+  if (adoption.verdict == HeadingVerdict::Late) bus_.count_late(channels::kPlanHeading);
+  if (now < next_heading_log_) return;
+  next_heading_log_ = now + kRefusalLogPeriod;
+  log::warn("refused the heading for request {}: {} ({}); the yaw follows the flight", heading.request_id,
+            to_string(adoption.verdict), adoption.detail);
 }
 
 UTime ExecutorNode::next_wakeup() const {
@@ -282,11 +303,15 @@ void ExecutorNode::step(UTime now) {
     const auto due = silent_since_ ? std::nullopt : executor_->next_wakeup();
     if (due && now >= *due) update_tube(now);
     const auto request = silent_since_ ? std::nullopt : executor_->next_request(now);
-    if (request) bus_.publish(channels::kHorizonRequest, *request);
+    if (request) {
+      bus_.publish(channels::kHorizonRequest, *request);
+      asked_ = {request->id, request->t_s};
+    }
     if (!executor_->requests_plans()) drop_unsent_plan();
     if (now >= next_setpoint_) {
       if (!silent_since_) publish_setpoints(now);
       executor_->forget_before(now - kRemembered);
+      heading_.forget_before(now - kRemembered);
       next_setpoint_ = next_tick(next_setpoint_, kSetpointPeriod, now);
     }
   }
@@ -315,7 +340,9 @@ void ExecutorNode::publish_setpoint(UTime at) {
   if (is_commanded() && !guard_.may_command(setpoint.motion.p)) {
     return lose("the committed trajectory leaves uav.flight_box by too much");
   }
-  setpoint.yaw = yaw_follower_->follow(setpoint.motion.v, at);
+  const auto planned = heading_.sample(at);
+  setpoint.yaw =
+      planned ? yaw_follower_->follow(*planned, at, heading_.limits()) : yaw_follower_->follow(setpoint.motion.v, at);
   bus_.publish(channels::kSetpoint, setpoint);
   last_setpoint_ = at;
 }
@@ -331,6 +358,11 @@ void ExecutorNode::log_counters() const {
   for (int k = 0; k < kBreaches; ++k) {
     const auto breach = static_cast<Breach>(k);
     if (counters.of(breach) > 0) log::info("  of these for {}: {}", to_string(breach), counters.of(breach));
+  }
+  for (int k = 0; k < kHeadingVerdicts; ++k) {
+    const auto verdict = static_cast<HeadingVerdict>(k);
+    const std::int64_t count = heading_.counters().of(verdict);
+    if (count > 0) log::info("headings {}: {}", to_string(verdict), count);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "core/world/horizon.h"
 #include "core/world/scenario.h"
 #include "core/world/vehicle_status.h"
+#include "executor/committed_heading.h"
 #include "executor/estimate_resets.h"
 #include "executor/executor.h"
 #include "executor/rejoin_guard.h"
@@ -26,7 +27,7 @@ namespace tern {
 inline constexpr double kRejoinBeyond = 0.1;
 
 /// Flies plans: requests them, adopts them, and publishes a setpoint at 100 Hz and at each knot of the trajectory.
-/// Receives UAV_STATE, VEHICLE_STATUS, GOAL and PLAN; publishes HORIZON_REQUEST, SETPOINT and GOAL.
+/// Receives UAV_STATE, VEHICLE_STATUS, GOAL, PLAN and PLAN_HEADING; publishes HORIZON_REQUEST, SETPOINT and GOAL.
 ///
 /// | state     | entered when                                                  | publishes      | requests plans    |
 /// |-----------|---------------------------------------------------------------|----------------|-------------------|
@@ -54,6 +55,7 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// | a GOAL with the id in use and other contents   | any       | refused and counted as inconsistent                 |
 /// | the vehicle follows again                      | Following | the tube forgets the errors from 1 s before it left |
 /// | the vehicle follows for the first time         | Holding   | the yaw starts at the measured yaw                  |
+/// | a PLAN_HEADING that CommittedHeading adopts    | Following | the yaw turns along it, else along the flight       |
 /// | the estimator is reset after that              | any       | the tube grows by the shift                         |
 ///
 /// Rejoin means: commit to a braking trajectory from the measured state; the next plan starts on it. The yaw starts
@@ -74,6 +76,8 @@ class ExecutorNode final : public Node {
   [[nodiscard]] std::int64_t tube_exits() const { return tube_exits_; }
   /// The reason of state Lost; empty in the other states.
   [[nodiscard]] const std::string& lost() const { return lost_; }
+  /// Of all PLAN_HEADINGs received.
+  [[nodiscard]] const HeadingCounters& heading_counters() const { return heading_.counters(); }
   /// All zero in state Waiting.
   [[nodiscard]] ExecutorCounters counters() const { return executor_ ? executor_->counters() : ExecutorCounters(); }
 
@@ -82,6 +86,7 @@ class ExecutorNode final : public Node {
   void on_status(const VehicleStatus& status);
   void on_goal(const Goal& goal);
   void on_plan(const Plan& plan);
+  void on_heading(const PlanHeading& heading);
   void on_heartbeat(const Heartbeat& heartbeat);
   /// Decides whether the vehicle follows, and acts if that has changed.
   void update_following(UTime now);
@@ -138,9 +143,11 @@ class ExecutorNode final : public Node {
   Vec3 excess_ = Vec3::Zero();               ///< error of the newest state minus the tube, m
   double measured_yaw_ = 0.0;                ///< rad, newest
   std::optional<YawFollower> yaw_follower_;  ///< empty in state Waiting
+  CommittedHeading heading_;
+  std::pair<std::int64_t, UTime> asked_{0, {}};  ///< id and t_s of the newest request
   UTime last_setpoint_;
   UTime next_setpoint_, next_goal_;
-  UTime next_refusal_log_;
+  UTime next_refusal_log_, next_heading_log_;
   std::int64_t unlogged_refusals_ = 0;
 };
 
