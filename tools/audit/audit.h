@@ -97,6 +97,7 @@ Check check_map(const FlightRecord& record, Audit& audit);
 Check check_limits(const FlightRecord& record);
 Check check_continuity(const FlightRecord& record);
 Check check_commitment(const FlightRecord& record);
+Check check_headings(const FlightRecord& record);
 Check check_tube(const FlightRecord& record, Audit& audit);
 Check check_certificates(const FlightRecord& record);
 Check check_holds(const FlightRecord& record);

@@ -48,6 +48,7 @@ class Reading {
     keep(channels::kObstacleObservations, record.observations);
     keep(channels::kPlan, record.plans);
     keep(channels::kPlanTiming, record.timings);
+    keep(channels::kPlanHeading, record.headings);
     collect(channels::kUavState, [](SenderMessages& messages, const UavState& s) { messages.estimates.push_back(s); });
     collect(channels::kVehicleTruth,
             [](SenderMessages& messages, const UavState& s) { messages.true_states.push_back(s); });
@@ -235,6 +236,7 @@ class Reading {
     }
     std::erase_if(record_.timings, [&](const PlanTiming& t) { return foreign.contains(t.header.name); });
     std::erase_if(record_.plans, [&](const Plan& p) { return others_.contains(p.inputs.request.sender_epoch_us); });
+    std::erase_if(record_.headings, [&](const PlanHeading& h) { return others_.contains(h.request.sender_epoch_us); });
     std::erase_if(record_.requests,
                   [&](const HorizonRequest& r) { return others_.contains(r.header.name.sender_epoch_us); });
   }

@@ -15,6 +15,7 @@
 #include "core/world/horizon.h"
 #include "core/world/inertial.h"
 #include "core/world/observation.h"
+#include "core/world/plan_heading.h"
 #include "core/world/region.h"
 #include "core/world/track.h"
 #include "core/world/vehicle_status.h"
@@ -64,6 +65,7 @@ struct FlightRecord {
   std::vector<HorizonRequest> requests;      ///< in the log's order, like every list below
   std::vector<Plan> plans;
   std::vector<PlanTiming> timings;
+  std::vector<PlanHeading> headings;
   std::vector<Goal> goals;                          ///< without repetitions
   std::set<MessageName> goal_names;                 ///< of all goals, repetitions included
   std::set<std::uint64_t> configuration_hashes;     ///< of every CONFIGURATION

@@ -132,6 +132,7 @@ class ExtractWriter {
       now_us_ = recorded->received_us;
       put(channels::kPlan, recorded->plan);
       if (recorded->timing) put(channels::kPlanTiming, *recorded->timing);
+      if (recorded->heading) put(channels::kPlanHeading, *recorded->heading);
     }
     answers_.erase(found);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/world/names.h"
 #include "messages/codec.h"
@@ -158,6 +159,24 @@ PlanDifference difference_of(const Plan& recorded, const Plan& again, const Plan
   const bool equivalent = recorded.outcome == again.outcome && difference.position_m <= kReplayTolerance;
   difference.agreement = equivalent ? Agreement::Equivalent : Agreement::Different;
   return difference;
+}
+
+void add_heading(const PlanHeading& recorded, const std::optional<PlanHeading>& again, PlanDifference& difference) {
+  if (again && encode(recorded) == encode(*again)) return;
+  if (!again || again->control_points.size() != recorded.control_points.size()) {
+    difference.agreement = Agreement::Different;
+    difference.parts.push_back(
+        {Stage::Check, fmt::format("heading: {} control points, now {}", recorded.control_points.size(),
+                                   again ? again->control_points.size() : 0)});
+    return;
+  }
+  double apart = 0.0;
+  for (std::size_t k = 0; k < recorded.control_points.size(); ++k) {
+    apart = std::max(apart, std::abs(recorded.control_points[k] - again->control_points[k]));
+  }
+  difference.agreement =
+      std::max(difference.agreement, apart <= kReplayTolerance ? Agreement::Equivalent : Agreement::Different);
+  difference.parts.push_back({Stage::Check, fmt::format("heading: its yaws are up to {:.3g} rad apart", apart)});
 }
 
 }  // namespace tern

@@ -1,9 +1,11 @@
 // Compares two answers to one request: how far they agree, and which stage makes the first difference.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/world/plan_heading.h"
 #include "planner/planner.h"
 
 namespace tern {
@@ -36,5 +38,9 @@ struct PlanDifference {
 /// plan, such as an optimizer that made the same trajectory of another leaf
 PlanDifference difference_of(const Plan& recorded, const Plan& again, const PlanTiming* recorded_work,
                              const PlanStatistics* work);
+
+/// Adds the difference of an answer's heading. Yaws within kReplayTolerance, rad, are equivalent.
+/// @param again  nullopt: the answer has no heading now
+void add_heading(const PlanHeading& recorded, const std::optional<PlanHeading>& again, PlanDifference& difference);
 
 }  // namespace tern

@@ -31,10 +31,12 @@ class Maps {
 
 using PlanKey = std::pair<std::int64_t, std::int64_t>;  // sender epoch, request id
 
-void attach(std::map<PlanKey, PlanTiming> timings, std::vector<RecordedPlan>& plans) {
+template <class Message>
+void attach(const std::map<PlanKey, Message>& messages, std::optional<Message> RecordedPlan::*part,
+            std::vector<RecordedPlan>& plans) {
   for (RecordedPlan& recorded : plans) {
-    const auto found = timings.find({recorded.plan.header.name.sender_epoch_us, recorded.plan.request_id});
-    if (found != timings.end()) recorded.timing = found->second;
+    const auto found = messages.find({recorded.plan.header.name.sender_epoch_us, recorded.plan.request_id});
+    if (found != messages.end()) recorded.*part = found->second;
   }
 }
 
@@ -44,6 +46,7 @@ Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::
   RecordedInputs inputs;
   Maps maps(inputs.maps);
   std::map<PlanKey, PlanTiming> timings;
+  std::map<PlanKey, PlanHeading> headings;
   FlightLog log(suffix);
   log.on(channels::kHorizonRequest,
          [&](const HorizonRequest& request, std::int64_t) { inputs.requests.emplace(request.header.name, request); });
@@ -54,14 +57,18 @@ Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::
     inputs.platforms.emplace(report.header.name.sender_epoch_us, report.platform);
   });
   log.on(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) {
-    inputs.plans.push_back({plan, received_us, std::nullopt});
+    inputs.plans.push_back({plan, received_us, std::nullopt, std::nullopt});
   });
   log.on(channels::kPlanTiming, [&](const PlanTiming& timing, std::int64_t) {
     timings[{timing.header.name.sender_epoch_us, timing.request_id}] = timing;
   });
+  log.on(channels::kPlanHeading, [&](const PlanHeading& heading, std::int64_t) {
+    headings[{heading.header.name.sender_epoch_us, heading.request_id}] = heading;
+  });
   auto contents = log.read(path);
   if (!contents) return tl::make_unexpected(contents.error());
-  attach(std::move(timings), inputs.plans);
+  attach(timings, &RecordedPlan::timing, inputs.plans);
+  attach(headings, &RecordedPlan::heading, inputs.plans);
   inputs.log = std::move(*contents);
   return inputs;
 }

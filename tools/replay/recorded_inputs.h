@@ -12,6 +12,7 @@
 #include "core/world/goal.h"
 #include "core/world/health.h"
 #include "core/world/horizon.h"
+#include "core/world/plan_heading.h"
 #include "core/world/track.h"
 #include "core/world/voxel_map.h"
 #include "flight_log/flight_log.h"
@@ -21,8 +22,9 @@ namespace tern {
 /// An answer of a planner.
 struct RecordedPlan {
   Plan plan;
-  std::int64_t received_us = 0;      ///< by the logger, µs since the Unix epoch
-  std::optional<PlanTiming> timing;  ///< its measured cost; nullopt if the log has none
+  std::int64_t received_us = 0;        ///< by the logger, µs since the Unix epoch
+  std::optional<PlanTiming> timing;    ///< its measured cost; nullopt if the log has none
+  std::optional<PlanHeading> heading;  ///< nullopt if the log has none
 };
 
 /// The inputs that plans name, except prediction sets: those are many and are read by read_prediction_sets().

@@ -1,8 +1,10 @@
 #include "tools/replay/replan.h"
 
 #include <utility>
+#include <vector>
 
 #include "planner/app/answer_desk.h"
+#include "planner/heading/heading_planner.h"
 
 namespace tern {
 namespace {
@@ -46,6 +48,15 @@ Replanned replan(const PlanProblem& problem, const Plan& recorded) {
   again.plan.header = recorded.header;
   again.plan.inputs.configuration_hash = recorded.inputs.configuration_hash;
   again.plan.inputs.planner_build = recorded.inputs.planner_build;
+  return again;
+}
+
+std::optional<PlanHeading> replan_heading(const PlanProblem& problem, const Plan& plan, const PlanHeading& recorded) {
+  static const std::vector<Track> kNone;
+  const auto& predictions = problem.world.predictions;
+  auto again = plan_heading(problem.request, plan, predictions ? predictions->set.tracks : kNone, problem.heading,
+                            {recorded.control_points[0], recorded.control_points[1]});
+  if (again) again->header = recorded.header;
   return again;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/world/plan_heading.h"
 #include "planner/planner.h"
 #include "tools/replay/world_rebuilder.h"
 
@@ -18,5 +19,11 @@ struct Replanned {
 /// Plans with the counts that `recorded` spent. For an answer of the watchdog it returns the improvement that the
 /// watchdog sent, or the last one if there are fewer.
 Replanned replan(const PlanProblem& problem, const Plan& recorded);
+
+/// Plans the heading of an answer again, from the yaw and rate with which the recorded one starts. These depend on the
+/// heading before, which the planner remembered.
+/// @param plan  the answer that was planned again
+/// @return nullopt if the plan has none now
+std::optional<PlanHeading> replan_heading(const PlanProblem& problem, const Plan& plan, const PlanHeading& recorded);
 
 }  // namespace tern

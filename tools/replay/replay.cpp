@@ -58,6 +58,9 @@ class Replayer {
     result.outcome = again.plan.outcome;
     result.difference = difference_of(recorded.plan, again.plan, recorded.timing ? &*recorded.timing : nullptr,
                                       again.statistics ? &*again.statistics : nullptr);
+    if (recorded.heading) {
+      add_heading(*recorded.heading, replan_heading(*problem, again.plan, *recorded.heading), result.difference);
+    }
     return result;
   }
 

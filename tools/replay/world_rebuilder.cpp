@@ -155,6 +155,7 @@ Result<PlanProblem> WorldRebuilder::problem_of(const Plan& plan) {
   const auto configuration = configuration_of(names.configuration_hash);
   if (!configuration) return tl::make_unexpected(configuration.error());
   problem.config = (*configuration)->config;
+  problem.heading = (*configuration)->uav.heading;
   if (names.predictions != MessageName{}) {
     const bool there = predictions_ && predictions_->set.batch.set == names.prediction_set &&
                        predictions_->set.header.name.sender_epoch_us == names.predictions.sender_epoch_us;

@@ -23,6 +23,7 @@ struct PlanProblem {
   HorizonRequest request;
   PlanningWorld world;
   PlannerConfig config;
+  HeadingLimits heading;  ///< for its PLAN_HEADING
 };
 
 /// Settings that replace those of the log.
