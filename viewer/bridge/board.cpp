@@ -10,8 +10,8 @@ namespace tern {
 
 const char* to_string(Topic topic) {
   constexpr std::array<const char*, kTopics> kNames = {
-      "session", "player", "state",  "truth", "tracks", "request", "plan", "timing", "hulls",  "tracked",
-      "search",  "map",    "health", "goal",  "result", "chart",   "path", "fields", "events", "ghost"};
+      "session", "player", "state", "truth",  "tracks", "request", "plan",   "timing", "hulls", "tracked", "search",
+      "map",     "health", "goal",  "result", "chart",  "path",    "fields", "events", "ghost", "views"};
   return kNames.at(idx(topic));
 }
 

@@ -32,8 +32,9 @@ enum class Topic : std::uint8_t {
   Fields,  ///< names of all fields that can be charted
   Events,  ///< marks of the timeline
   Ghost,   ///< the path of another log
+  Views,   ///< fields of view of the sensors, and the planned heading
 };
-inline constexpr int kTopics = 20;
+inline constexpr int kTopics = 21;
 const char* to_string(Topic topic);
 
 /// Holds the newest text per topic. Thread-safe.

@@ -69,6 +69,12 @@ void Scene::receive(const ObservationSet& message) {
   mark(Topic::Tracked);
 }
 
+void Scene::receive(const SightingSet& message) {
+  if (!sightings_.contains(message.sensor_id) && sightings_.size() >= kMaxSensors) return;
+  sightings_[message.sensor_id] = message;
+  mark(Topic::Views);
+}
+
 void Scene::receive(TrackSet complete_set) {
   if (memory_ != nullptr) memory_->ages.receive(complete_set);
   mark(Topic::Tracked);
@@ -90,6 +96,11 @@ void Scene::receive(const Plan& message) {
   if (memory_ != nullptr) memory_->events.receive(message);
   mark(Topic::Plan);
   mark(Topic::Hulls);
+}
+
+void Scene::receive(const PlanHeading& message) {
+  heading_ = message;
+  mark(Topic::Views);
 }
 
 void Scene::receive(const PlanTiming& message) {

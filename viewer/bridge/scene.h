@@ -12,7 +12,9 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
+#include "core/world/plan_heading.h"
 #include "core/world/search_view.h"
+#include "core/world/sighting.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "viewer/bridge/board.h"
@@ -70,9 +72,11 @@ class Scene {
   void receive_truth(const UavState& message);
   void receive(const ObstacleTruth& complete_set);
   void receive(const ObservationSet& message);
+  void receive(const SightingSet& message);
   void receive(TrackSet complete_set);
   void receive(const HorizonRequest& message);
   void receive(const Plan& message);
+  void receive(const PlanHeading& message);
   void receive(const PlanTiming& message);
   void receive(const SearchView& message);
   void receive(const Goal& message);
@@ -94,6 +98,10 @@ class Scene {
   [[nodiscard]] const std::optional<TrackSet>& tracks() const { return tracks_; }
   [[nodiscard]] const std::optional<HorizonRequest>& request() const { return request_; }
   [[nodiscard]] const std::optional<Plan>& plan() const { return plan_; }
+  /// Returns the newest heading; nullopt if none was received.
+  [[nodiscard]] const std::optional<PlanHeading>& heading() const { return heading_; }
+  /// Returns the newest frame of each sensor with a view, by its id.
+  [[nodiscard]] const std::map<std::int32_t, SightingSet>& sightings() const { return sightings_; }
   [[nodiscard]] const std::optional<PlanTiming>& timing() const { return timing_; }
   [[nodiscard]] const std::optional<SearchView>& search() const { return search_; }
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
@@ -143,6 +151,8 @@ class Scene {
   std::optional<TrackSet> tracks_;
   std::optional<HorizonRequest> request_;
   std::optional<Plan> plan_;
+  std::optional<PlanHeading> heading_;
+  std::map<std::int32_t, SightingSet> sightings_;
   std::optional<PlanTiming> timing_;
   std::optional<SearchView> search_;
   std::optional<Goal> goal_;

@@ -22,6 +22,9 @@ std::string timing_json(const Scene& scene);
 std::string hulls_json(const Scene& scene, Duration ahead, double reach, int most);
 /// The newest detections of each sensor, and the moving tracks with their α at present and their age.
 std::string tracked_json(const Scene& scene, const TrackAges& ages);
+/// Outlines of the fields of view, from the newest frame of each sensor, two points per line. The heading along the
+/// newest plan: [x, y, z, yaw, …].
+std::string views_json(const Scene& scene);
 /// Edges of the search tree, six numbers each.
 std::string search_json(const Scene& scene);
 std::string map_json(const Scene& scene);

@@ -46,6 +46,7 @@ std::string topic_json(Topic topic, const TopicSource& source) {
     case Topic::Hulls: return hulls_json(scene, kHullsAhead, kHullReach, kMaxHulls);
     case Topic::Tracked: return tracked_json(scene, source.memory.ages);
     case Topic::Search: return search_json(scene);
+    case Topic::Views: return views_json(scene);
     case Topic::Map: return map_json(scene);
     case Topic::Health: return health_json(scene, source.now);
     case Topic::Goal: return goal_json(scene);

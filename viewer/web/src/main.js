@@ -24,6 +24,7 @@ import { Timeline } from './timeline.js';
 import { Tracks } from './tracks.js';
 import { Trajectories } from './trajectories.js';
 import { Vehicle } from './vehicle.js';
+import { Views } from './views.js';
 import { mapInWords, obstacleInWords } from './words.js';
 import { World } from './world.js';
 
@@ -37,6 +38,7 @@ const vehicle = new Vehicle(world.scene);
 const regions = new Regions(world, vehicle.p);
 const obstacles = new Obstacles(world, vehicle.p);
 const tracks = new Tracks(world.scene, vehicle.p);
+const views = new Views(world.scene);
 const tags = new Tags(document.getElementById('tags'));
 const ghost = new Ghost(world.scene);
 const layers = {};
@@ -128,6 +130,10 @@ const topics = {
     showCut();
   },
   health: (processes) => hud.showHealth(processes, (name) => inspector.open({ kind: 'process', name })),
+  views(message) {
+    views.take(message);
+    offer('views', message);
+  },
   ghost(message) {
     if (message) ghost.take(message);
     else ghost.clear();
@@ -162,10 +168,11 @@ function takeReply(message) {
 /** Starts over: another bridge, another flight, or its log. */
 function forget() {
   for (const key of Object.keys(known)) delete known[key];
-  for (const part of [obstacles, trajectories, proofs, tracks, vehicle, regions, ghost, cameras]) part.clear();
+  for (const part of [obstacles, trajectories, proofs, tracks, views, vehicle, regions, ghost, cameras]) part.clear();
   hud.forget();
   timeline.takeEvents([]);
   offer('ghost', false);
+  offer('views', false);
 }
 
 // Layers -------------------------------------------------------------------------------------------------------------
@@ -177,7 +184,7 @@ function sendSubscriptions() {
 
 function setLayer(name, on) {
   layers[name] = on;
-  for (const part of [trajectories, proofs, tracks, regions, ghost]) part.show(name, on);
+  for (const part of [trajectories, proofs, tracks, views, regions, ghost]) part.show(name, on);
   if (name === 'obstacles') obstacles.show(on);
   if (ON_DEMAND.includes(name)) send({ layers: ON_DEMAND.filter((other) => layers[other]) });
   if (name === 'planes') proofs.takePlanes(on ? known.plan : null, obstacles.pickedId);
@@ -186,6 +193,7 @@ function setLayer(name, on) {
 }
 makeSwitches(document.getElementById('layers'), setLayer);
 offer('ghost', false);
+offer('views', false);
 
 let cutShare = 1;
 function showCut() {
