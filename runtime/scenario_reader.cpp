@@ -268,8 +268,7 @@ UavSpec default_uav(const Scenario& scenario) {
   UavSpec uav;
   if (scenario.world.generator != "step_aside") return uav;
   StepAside drawn = draw_step_aside(scenario.seed, uav.start);
-  uav.limits = drawn.limits;
-  uav.body = std::move(drawn.body);
+  std::tie(uav.limits, uav.body) = std::tie(drawn.limits, drawn.body);
   return uav;
 }
 
