@@ -47,7 +47,8 @@ inline constexpr Duration kMaxAge{10'000'000};
 ///   waits, and counted as late. step() takes kMaxWorkPerStep and one set at most, so that heartbeats and signals wait
 ///   no longer, however many sets have arrived.
 /// - A track or message that every receiver would refuse is not sent but counted, and HEARTBEAT names its field.
-/// - With ODOMETRY, declared tracks get the margin of things known in W (models/world_error.h). Estimated tracks do not:
+/// - With ODOMETRY, declared tracks get the margin of things known in W (models/world_error.h). Estimated tracks do
+/// not:
 ///   the vehicle sees them relative to itself.
 /// - TRACK_BOUNDS, the reason for each estimated track's width, is published with the first set of each kBoundsPeriod.
 ///
