@@ -54,7 +54,7 @@ TEXT
   done
 }
 
-names() { (cd "$bin" && find . -maxdepth 1 -name 'tern-*' -type f -perm -u+x -printf '%f\n' | LC_ALL=C sort); }
+names() { (cd "$bin" && find . -maxdepth 1 -name 'tern-*' ! -name '*.so' -type f -perm -u+x -printf '%f\n' | LC_ALL=C sort); }
 
 # subcommands PROGRAM [COMMAND...]: the names under "Subcommands:" of its help
 subcommands() { "$bin/$1" "${@:2}" --help | awk '/^[A-Z][A-Za-z ]*:/ { on = /^Subcommands:/; next } on && /^  [a-z]/ { print $1 }'; }
