@@ -67,7 +67,7 @@ SightFan level_fan(const SensorView& view) {
     const double high = view.right - k * fan.width, low = high - fan.width;  // to the right of the axis
     double reach = view.range_m;
     for (int c = column_of(low + 1e-12); c <= column_of(high - 1e-12); ++c) {
-      const std::int16_t cell = view.depths[static_cast<std::size_t>(row * view.columns + c)];
+      const std::int16_t cell = view.depths[idx(row * view.columns + c)];
       const double nearer = low * high <= 0.0 ? 0.0 : std::min(std::abs(low), std::abs(high));
       reach = std::min(reach, free_range(view, cell, nearer));
     }

@@ -55,7 +55,7 @@ class UnseenField {
   static constexpr double kFarthest = 4.0;
 
  private:
-  [[nodiscard]] std::size_t index(int ix, int iy) const { return static_cast<std::size_t>(iy * grid_.nx + ix); }
+  [[nodiscard]] std::size_t index(int ix, int iy) const { return idx(iy * grid_.nx + ix); }
   void find_candidates(const std::vector<SightFan>& fans, const std::vector<std::uint8_t>& filled);
   void keep_blocks();
   void raise();
