@@ -89,13 +89,19 @@ TEST(DocsExamples, TheCourtyardOfTheTutorialReachesItsGoal) {
   expect_reached(flight.result);
 }
 
+TEST(DocsExamples, TheFencedFieldOfMissionsReachesItsGoal) {
+  const VirtualFlight flight = fly_virtually(TERN_EXAMPLES "/fenced_field.yaml", {});
+  EXPECT_EQ(flight.end, "");
+  expect_reached(flight.result);
+}
+
 TEST(DocsExamples, EveryScenarioOfDocsIsFlownHere) {
   std::vector<std::string> scenarios;
   for (const auto& entry : std::filesystem::directory_iterator(TERN_EXAMPLES)) {
     if (entry.path().extension() == ".yaml") scenarios.push_back(entry.path().stem().string());
   }
   std::sort(scenarios.begin(), scenarios.end());
-  EXPECT_EQ(scenarios, (std::vector<std::string>{"courtyard", "own_detector"}));
+  EXPECT_EQ(scenarios, (std::vector<std::string>{"courtyard", "fenced_field", "own_detector"}));
 }
 
 }  // namespace
