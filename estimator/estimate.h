@@ -12,14 +12,12 @@
 
 namespace tern {
 
-/// The first index of each error in Estimate::covariance; each error has three axes.
-enum EstimateError : std::uint8_t {
-  kAttitudeError = 0,    ///< φ of R_WB = Exp(φ) R̂_WB, rad, along W's axes
-  kPositionError = 3,    ///< p − p̂ in W, m
-  kVelocityError = 6,    ///< v − v̂ in W, m/s
-  kGyroBiasError = 9,    ///< rad/s, in B
-  kAccelBiasError = 12,  ///< m/s², in B
-};
+// The first index of each error in Estimate::covariance; each error has three axes.
+inline constexpr int kAttitudeError = 0;    ///< φ of R_WB = Exp(φ) R̂_WB, rad, along W's axes
+inline constexpr int kPositionError = 3;    ///< p − p̂ in W, m
+inline constexpr int kVelocityError = 6;    ///< v − v̂ in W, m/s
+inline constexpr int kGyroBiasError = 9;    ///< rad/s, in B
+inline constexpr int kAccelBiasError = 12;  ///< m/s², in B
 inline constexpr int kEstimateErrors = 15;
 using EstimateCovariance = Eigen::Matrix<double, kEstimateErrors, kEstimateErrors>;
 
@@ -33,7 +31,7 @@ struct Estimate {
   VectorInO acceleration;          ///< of B, without gravity and bias, m/s²
   Vec3 gyro_bias = Vec3::Zero();   ///< rad/s, in B
   Vec3 accel_bias = Vec3::Zero();  ///< m/s², in B
-  /// Of the errors of T_WO·pose, T_WO·velocity and the biases (EstimateError).
+  /// Of the errors of T_WO·pose, T_WO·velocity and the biases (kAttitudeError to kAccelBiasError).
   EstimateCovariance covariance = EstimateCovariance::Zero();
   /// Of the error of the acceleration by tilt and bias, W, m²/s⁴: by it the velocity's error grows while nothing is
   /// seen.
