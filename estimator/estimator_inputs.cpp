@@ -9,7 +9,7 @@ namespace {
 
 /// Samples that come later than this after the one before it are missing some: IMUs in use send at 100 Hz or faster.
 constexpr Duration kGap{30'000};
-/// What a vehicle may do in a gap, and a saturated sample hide, as a share of the range: standard deviations.
+/// Standard deviations of the motion that a gap or a saturated sample hides, as a share of the range.
 constexpr double kGapRate = 0.5, kGapForce = 3.0;  ///< rad/s, m/s²
 constexpr double kHiddenShare = 0.25;
 constexpr std::size_t kMostWaiting = 100;

@@ -33,7 +33,7 @@ std::vector<LookInstant> look_instants(const TimedSpline& trajectory, UTime from
 
 using TargetLists = std::vector<std::vector<LookTarget>>;
 
-/// What a term sees at each instant, with its weight applied.
+/// The values of a term at each instant, with its weight applied.
 TargetLists targets_of(const LookTerm& term, const std::vector<LookInstant>& instants) {
   TargetLists lists(instants.size());
   for (std::size_t k = 0; k < instants.size(); ++k) {

@@ -24,7 +24,7 @@ constexpr Duration kVelocitySpan{500'000};
 
 Vec3 middle(const Sighting& sighting) { return 0.5 * (sighting.lower + sighting.upper); }
 
-// What of a frame the filters' code needs.
+// The parts of a frame that the filters need.
 ObservationSet without_detections(const SightingSet& frame) {
   ObservationSet set;
   set.header = frame.header;

@@ -36,7 +36,7 @@ InputOutcome give(Estimator& estimator, const VioEvent& event) {
 
 std::int64_t count(const Estimator& estimator, Trouble trouble) { return estimator.status().count[idx(trouble)]; }
 
-/// What many flights say about the filter's own error.
+/// The filter's error over many flights, beside its own covariance.
 struct Record {
   int flights = 0;
   double end_nees = 0.0;  ///< sum of the poses' NEES at the end

@@ -162,7 +162,7 @@ TEST_F(SightingsInput, BoundsThatAreTooUncertainAreNotUsed) {
   EXPECT_TRUE(says("standard deviation above")) << node_->health().waiting_for;
 }
 
-// What a declared track explains is not seen twice; what sticks out of it is another obstacle.
+// A sighting inside a declared track is that track. The part of a sighting that sticks out is another obstacle.
 TEST_F(SightingsInput, WhatIsDeclaredIsNotSeenTwice) {
   Track declared;
   declared.id = 5;

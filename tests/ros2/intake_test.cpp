@@ -227,7 +227,7 @@ TEST_F(Intake, RefusesCloudsThatDoNotFit) {
   EXPECT_THAT(why_not(cloud), HasSubstr("big-endian"));
 }
 
-/// What is used after mutations of a message's bytes may be published: it obeys the contract of its channel.
+/// A value that is accepted after mutations of a message's bytes obeys the contract of its channel.
 TEST_F(Intake, HostileBytesGiveLegalMessagesOrNone) {
   ASSERT_TRUE(transforms.add(transform_of("map", "lidar", any_pose(rng), kNow), false, kNow));
   ros::Detection3DArray array{{ros::to_ros(kNow), "lidar"}, std::vector<ros::Detection3D>(3)};

@@ -1,4 +1,4 @@
-// What geofences forbid, as voxels.
+// The space that geofences forbid, as voxels.
 #include "semantic_mapper/voxel_map/fence_voxels.h"
 
 #include <gmock/gmock.h>
