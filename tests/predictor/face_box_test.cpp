@@ -29,7 +29,7 @@ std::array<BoundSight, 6> all(BoundSight sight) {
   return bounds;
 }
 
-// The visible part of a box at one time. Of each axis a sensor sees both ends, one or none; without an end it sees less.
+// The visible part of a box at one time. Of each axis a sensor sees both ends, one or none, and less without an end.
 Sighting part_of(const Box& box, Rng& rng) {
   Sighting sighting = sighting_of(box, all(BoundSight::Whole));
   for (int axis = 0; axis < 3; ++axis) {
