@@ -1,5 +1,5 @@
 // A visual-inertial estimator: a right-invariant stereo MSCKF with a start at rest, position fixes, and an odometry
-// frame without steps. docs/estimation.md derives the equations.
+// frame with bounded steps. docs/estimation.md derives the equations.
 #pragma once
 
 #include <memory>

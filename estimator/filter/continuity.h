@@ -1,4 +1,4 @@
-// The odometry frame without steps: what part of a correction moves T_WO instead of the pose in O.
+// The odometry frame with bounded steps: the part of a correction that moves T_WO instead of the pose in O.
 #pragma once
 
 #include "core/world/frames.h"

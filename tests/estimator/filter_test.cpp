@@ -327,6 +327,21 @@ TEST(Continuity, SmallCorrectionsMoveThePoseAndLargeOnesTheOffset) {
   EXPECT_GT(largest(in_O.R - was.R), 0.01);  // roll and pitch are corrected
 }
 
+TEST(Continuity, NoCorrectionMovesThePositionInOByMoreThanItsLimit) {
+  Rng random(11);
+  int offsets = 0;
+  for (int k = 0; k < 10'000; ++k) {
+    const OdometryOffset T{normals(random, 5.0), random.uniform(-3.0, 3.0), 7};
+    const PoseInW before{exp_rotation(normals(random)), normals(random, 20.0)};
+    const PoseInW after{exp_rotation(normals(random, 0.02)) * before.R, before.p + normals(random, 0.01)};
+    const OdometryOffset corrected = after_correction(T, before, after, 0.01, 0.01);
+    EXPECT_LE((corrected.to_O(after).p - T.to_O(before).p).norm(), 0.01 + 1e-12);
+    offsets += corrected.epoch == 8 ? 1 : 0;
+  }
+  EXPECT_GT(offsets, 1'000);
+  EXPECT_LT(offsets, 9'900);
+}
+
 TEST(Masks, HideWhatMayLieOnAMover) {
   FeatureFrame frame;
   frame.q_BC = {0.5, -0.5, 0.5, -0.5};  // z forward, x right, y down
