@@ -3,6 +3,7 @@
 
 #include "core/world/vehicle.h"
 #include "planner/heading/look_term.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 
@@ -15,12 +16,13 @@ double stop_time(double speed, const Limits& limits);
 ///
 /// The term's unit is m: the length of path that is flown while the way ahead is not seen. A slow vehicle counts as one
 /// of kLeastPathSpeed, so that it looks where it will start to. Places nearer than kNearestPlace have no direction.
+/// By kPathWeight the path outweighs all tracks together.
 class PathTerm final : public LookTerm {
  public:
   /// @param trajectory  is kept by reference
   PathTerm(const TimedSpline& trajectory, const Vec3& local_goal, const Limits& limits);
 
-  [[nodiscard]] double weight() const override { return 1.0; }
+  [[nodiscard]] double weight() const override { return kPathWeight; }
   void look(const LookInstant& now, std::vector<LookTarget>& targets) const override;
 
  private:

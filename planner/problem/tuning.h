@@ -196,5 +196,8 @@ inline constexpr double kTrackReach = 1.0;
 inline constexpr double kTrackSoon = 1.5;
 /// Number of tracks that are looked at.
 inline constexpr std::size_t kTracksSeen = 8;
+/// m·s of α per m of path. All tracks that are looked at weigh at most as much as the path of a slow vehicle. So the
+/// way of a fast one comes first, and tracks turn the view of one that waits.
+inline constexpr double kPathWeight = static_cast<double>(kTracksSeen) * kAlphaCap / kLeastPathSpeed;
 
 }  // namespace tern

@@ -88,12 +88,13 @@ TEST(PlanHeading, TurnsIntoABendBeforeTheFlightDoes) {
   EXPECT_NEAR(heading.sample(heading.end()).yaw, std::numbers::pi / 2, 0.4) << "towards the local goal";
 }
 
-TEST(PlanHeading, LooksAtAnUncertainTrackBesideTheWayAndNotAtADeclaredOne) {
+TEST(PlanHeading, OfASlowVehicleLooksAtAnUncertainTrackBesideTheWayAndNotAtADeclaredOne) {
   TimedSpline straight = bend_to_the_left();
   straight.control_points.row(1).setZero();
+  straight.control_points.row(0) *= 0.1;
   Planned p = planned(straight);
   p.plan.local_goal = Vec3(6, 0, 1);
-  Track track = estimated(1, Vec3(4.0, -1.5, 1.0), 1.2);
+  Track track = estimated(1, Vec3(1.5, -1.5, 1.0), 1.2);
   const UTime t = kZero + Duration{500'000};
   EXPECT_NEAR(HeadingSpline(*heading_of(p, {}, 0.0)).sample(t).yaw, 0.0, 1e-9);
   const auto with = heading_of(p, {track}, 0.0);
@@ -101,6 +102,21 @@ TEST(PlanHeading, LooksAtAnUncertainTrackBesideTheWayAndNotAtADeclaredOne) {
   EXPECT_GT(with->track_term, 0.0);
   track.kind = TrackKind::Declared;
   EXPECT_NEAR(HeadingSpline(*heading_of(p, {track}, 0.0)).sample(t).yaw, 0.0, 1e-9);
+}
+
+TEST(PlanHeading, OfAFastVehicleKeepsToItsWayHoweverManyTracksAreUncertain) {
+  TimedSpline straight = bend_to_the_left();
+  straight.control_points.row(1).setZero();
+  Planned p = planned(straight);
+  p.plan.local_goal = Vec3(6, 0, 1);
+  std::vector<Track> tracks;
+  for (int k = 0; k < 20; ++k) tracks.push_back(estimated(k, Vec3(0.3 * k, -2.0, 1.0), 1.5));
+  const HeadingSpline heading(*heading_of(p, tracks, 0.0));
+  for (int k = 1; k <= 20; ++k) {
+    const UTime t = kZero + Duration{50'000} * k;
+    if (p.plan.trajectory.sample(t).v.norm() < 1.0) continue;
+    EXPECT_LT(std::abs(heading.sample(t).yaw), 0.5 * 85.2 / 2 / 57.3) << "the way stays in the inner half of the view";
+  }
 }
 
 TEST(TrackTerm, CountsATrackNearThePlanMoreThanOneFarAwayAndMoreAlphaMore) {
