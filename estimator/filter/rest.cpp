@@ -45,7 +45,7 @@ bool RestMeter::is_still(const Block& block) const {
 
 bool RestMeter::add(const ImuStep& step, UTime end) {
   current_.add({step.rate * step.h, step.force * step.h, step.h, end});
-  if (current_.duration < kBlock_s) return true;
+  if (current_.duration < kBlock) return true;
   const Block block = std::exchange(current_, Block{});
   if (!is_still(block)) return false;
   young_.push_back(block);
@@ -53,11 +53,11 @@ bool RestMeter::add(const ImuStep& step, UTime end) {
   rest_.add(young_.front());
   young_.pop_front();
   end_ = rest_.end;
-  if (rest_.duration > kRestMemory_s) {
-    const double keep = kRestMemory_s / rest_.duration;
+  if (rest_.duration > kRestMemory) {
+    const double keep = kRestMemory / rest_.duration;
     rest_.rate *= keep;
     rest_.force *= keep;
-    rest_.duration = kRestMemory_s;
+    rest_.duration = kRestMemory;
   }
   return true;
 }

@@ -29,7 +29,7 @@ class RestMeter {
   /// @param end  of the step
   /// @return false if this step ends the rest; the meter then begins anew unless the caller stops
   bool add(const ImuStep& step, UTime end);
-  /// The mean over at most the last kRestMemory_s.
+  /// The mean over at most the last kRestMemory.
   [[nodiscard]] RestMean mean() const;
   /// When the mean ends; later samples may belong to a motion. @pre mean().duration > 0
   [[nodiscard]] UTime end() const { return end_; }
@@ -52,7 +52,7 @@ class RestMeter {
   UTime end_;
 };
 inline constexpr int kYoungBlocks = 4;
-inline constexpr double kBlock_s = 0.1, kRestMemory_s = 10.0;
+inline constexpr double kBlock = 0.1, kRestMemory = 10.0;  ///< s
 
 /// Returns the state at rest, and the covariance of its right-invariant error.
 ///
