@@ -11,7 +11,8 @@
 namespace tern::mission {
 namespace {
 
-constexpr int kWaypoint = 16, kLoiterTime = 19, kReturn = 20, kLand = 21, kTakeoff = 22, kDelay = 93;
+constexpr int kWaypoint = 16, kLoiterTime = 19, kReturn = 20, kLand = 21, kTakeoff = 22, kDelay = 93,
+              kChangeSpeed = 178;
 
 /// Commands that plans often have, by the names of MAVLink's common.xml.
 constexpr std::pair<int, const char*> kNames[] = {{16, "NAV_WAYPOINT"},
@@ -78,6 +79,7 @@ class ItemReader {
       case kLand: return land();
       case kTakeoff: return take_off();
       case kDelay: return delay();
+      case kChangeSpeed: return refuse(kNoSpeed);
       default: return refuse("cannot be flown");
     }
   }

@@ -36,7 +36,7 @@ struct Item {
 /// | NAV_DELAY (93)            | the step before becomes a Stop, and stays longer by param1 seconds |
 ///
 /// Everything else is refused, with the item's number and the command's name:
-/// - other commands;
+/// - other commands, DO_CHANGE_SPEED (178) with the reason kNoSpeed;
 /// - frames other than 0, 3, 5, 6 (latitude, longitude), 1 and 4 (W);
 /// - a heading, which executor.heading decides, and a radius of loitering;
 /// - an item without autoContinue.

@@ -61,6 +61,12 @@ Result<std::vector<Step>> StepList::take() {
   return std::move(steps_);
 }
 
+bool asks_for_speed(std::string_view name) {
+  std::string lower;
+  for (const char c : name) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower.find("speed") != std::string::npos || lower.find("velocity") != std::string::npos;
+}
+
 std::string why_no_step(const Vec3& position, double radius, double hold_s) {
   if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kMaxDistance) {
     return fmt::format("position ({}, {}, {}) m is farther than {} m from the origin", position.x(), position.y(),

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -52,6 +53,12 @@ class StepList {
 
 /// Returns why a step's numbers cannot be flown, as "hold of -1 s is out of range [0, 86400]"; "" if they can.
 std::string why_no_step(const Vec3& position, double radius, double hold_s);
+
+/// Why a speed is refused: GOAL carries none, and the executor's requests have the limits of the scenario.
+inline constexpr const char* kNoSpeed =
+    "a speed cannot be flown; the vehicle flies at uav.limits.v_max of the scenario: set that, and leave the speed out";
+/// Returns whether a column or property of this name asks for a speed.
+bool asks_for_speed(std::string_view name);
 
 inline constexpr double kMaxHoldS = 86'400.0;
 inline constexpr double kMaxRadius = 1'000.0;

@@ -53,6 +53,7 @@ class Columns {
     Columns columns;
     for (const std::string_view name : cells_of(line)) {
       const bool is_known = std::find(std::begin(kColumns), std::end(kColumns), name) != std::end(kColumns);
+      if (!is_known && asks_for_speed(name)) return fail(fmt::format("column {}: {}", quoted(name), kNoSpeed));
       if (!is_known)
         return fail(fmt::format("column {} is unknown (known: {})", quoted(name), fmt::join(kColumns, ", ")));
       if (!columns.at_.emplace(name, columns.at_.size()).second)

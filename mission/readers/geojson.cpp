@@ -16,6 +16,15 @@ Result<std::optional<double>> number(const Json& properties, const char* name) {
   return std::optional(json.get<double>());
 }
 
+/// Returns the name of a property that asks for a speed; "" if there is none. Other unknown properties are for people.
+std::string speed_among(const Json& properties) {
+  if (!properties.is_object()) return "";
+  for (const auto& [name, value] : properties.items()) {
+    if (asks_for_speed(name) && !value.is_null()) return short_text(Json(name));
+  }
+  return "";
+}
+
 /// [longitude, latitude, height]
 Result<Vec3> place(const Json& json, const Site& site) {
   if (!json.is_array() || json.size() != 3) return fail("a position is no list of longitude, latitude and height");
@@ -26,6 +35,9 @@ Result<Vec3> place(const Json& json, const Site& site) {
 }
 
 Result<Entry> entry_of(const Json& properties, int item) {
+  if (const std::string name = speed_among(properties); !name.empty()) {
+    return fail(fmt::format("property {}: {}", name, kNoSpeed));
+  }
   Entry entry;
   entry.item = item;
   entry.name = short_text(member(properties, "name"));

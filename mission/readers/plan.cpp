@@ -64,6 +64,11 @@ Result<std::vector<Item>> parse_plan(std::string_view text) {
   if (short_text(member(*json, "fileType")) != "Plan") return fail("fileType is not \"Plan\"");
   const Json& version = member(*json, "version");
   if (!version.is_number() || version.get<double>() != 1.0) return fail("version is not 1, the only one that is known");
+  const Json& rally_points = member(member(*json, "rallyPoints"), "points");
+  if (rally_points.is_array() && !rally_points.empty()) {
+    return fail(fmt::format("has {} rally points, which cannot be flown to: a return leads to uav.start; remove them",
+                            rally_points.size()));
+  }
   const Json& items = member(member(*json, "mission"), "items");
   if (!items.is_array()) return fail("has no list mission.items");
   if (items.size() > static_cast<std::size_t>(kMaxSteps)) {

@@ -10,7 +10,8 @@ namespace {
 
 using namespace mavlink;
 
-constexpr std::uint8_t kMissionType = 0;
+/// MAV_MISSION_TYPE
+constexpr std::uint8_t kMissionType = 0, kAllTypes = 255;
 constexpr std::uint16_t kPauseContinue = 193, kMissionStart = 300;
 /// MAV_RESULT
 constexpr std::uint8_t kResultAccepted = 0, kResultDenied = 2, kResultUnsupported = 3;
@@ -96,8 +97,9 @@ std::vector<Frame> MissionServer::receive(const Frame& frame, UTime now) {
                                  }) ||
       handle<MissionClearAll>(frame,
                               [&](const auto& m) {
-                                const std::string why = m.mission_type == kMissionType ? taker_.take({}) : "";
-                                if (why.empty() && m.mission_type == kMissionType) items_.clear();
+                                const bool clears = m.mission_type == kMissionType || m.mission_type == kAllTypes;
+                                const std::string why = clears ? taker_.take({}) : "";
+                                if (why.empty() && clears) items_.clear();
                                 if (!why.empty()) say(why, out);
                                 acknowledge(why.empty() ? kAccepted : kDenied, m.mission_type, peer, out);
                               }) ||
@@ -176,7 +178,10 @@ void MissionServer::on_command(const CommandLong& command, Address peer, Frames&
   if (command.command == kMissionStart || command.command == kPauseContinue) {
     const bool is_pause = command.param[0] == 0.0F;
     const Order order = command.command == kMissionStart ? Order::Start : is_pause ? Order::Pause : Order::GoOn;
-    const std::string why = taker_.obey(order);
+    const bool asks_for_part = order == Order::Start &&
+                               (command.param[0] > 0.0F || (command.param[1] > 0.0F && command.param[1] < last_item()));
+    const std::string why =
+        asks_for_part ? "a mission is flown whole; leave first_item and last_item 0" : taker_.obey(order);
     ack.result = why.empty() ? kResultAccepted : kResultDenied;
     if (!why.empty()) say(why, out);
   }

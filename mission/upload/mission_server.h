@@ -26,18 +26,22 @@ struct MissionTaker {
 
 /// Serves uploads, downloads and orders of ground stations. Pure: frames in, frames out.
 ///
-/// | message                            | answer |
-/// |------------------------------------|-------------------------------------------------------------------------------|
-/// | MISSION_COUNT                      | MISSION_REQUEST_INT 0; each item asks for the next one | | MISSION_ITEM_INT,
-/// the expected one | the next MISSION_REQUEST_INT, or MISSION_ACK after the last one               | | … another one
-/// | MISSION_REQUEST_INT of the expected one                                       | | MISSION_REQUEST_LIST |
-/// MISSION_COUNT                                                                 | | MISSION_REQUEST_INT, _REQUEST |
-/// MISSION_ITEM_INT; MISSION_ACK with an error beyond the last item              | | MISSION_CLEAR_ALL | MISSION_ACK |
-/// | COMMAND_LONG 300 MISSION_START, 193 DO_PAUSE_CONTINUE | COMMAND_ACK; every other command is unsupported |
+/// | message                                | answer                                                  |
+/// |----------------------------------------|---------------------------------------------------------|
+/// | MISSION_COUNT                          | MISSION_REQUEST_INT 0                                   |
+/// | MISSION_ITEM_INT, the expected one     | MISSION_REQUEST_INT of the next; at the end MISSION_ACK |
+/// | MISSION_ITEM_INT, another one          | MISSION_REQUEST_INT of the expected one                 |
+/// | MISSION_REQUEST_LIST                   | MISSION_COUNT                                           |
+/// | MISSION_REQUEST_INT, MISSION_REQUEST   | MISSION_ITEM_INT; beyond the last item MISSION_ACK      |
+/// | MISSION_CLEAR_ALL                      | MISSION_ACK                                             |
+/// | COMMAND_LONG 300 MISSION_START         | COMMAND_ACK                                             |
+/// | COMMAND_LONG 193 DO_PAUSE_CONTINUE     | COMMAND_ACK                                             |
+/// | COMMAND_LONG, another command          | COMMAND_ACK: unsupported                                |
 ///
 /// - A mission that is refused is named in STATUSTEXT, in parts of 50 bytes, before its MISSION_ACK.
 /// - An expected item is requested again after kRequestAgain, and after kTries the upload is dropped.
 /// - A second ground station's upload is denied while one is under way.
+/// - MISSION_START starts the whole mission; a part of it is denied. MISSION_CLEAR_ALL of all types clears the mission.
 /// - Fences and rally points are not supported here: an upload of any, and a download, is refused.
 class MissionServer {
  public:
@@ -74,6 +78,7 @@ class MissionServer {
   void send_item(std::uint16_t seq, std::uint8_t type, mavlink::Address peer, Frames& out);
   void finish(mavlink::Address peer, Frames& out);
   void request(UTime now, Frames& out);
+  [[nodiscard]] float last_item() const { return static_cast<float>(items_.size()) - 1.0F; }
   void acknowledge(std::uint8_t result, std::uint8_t type, mavlink::Address peer, Frames& out);
   void say(const std::string& text, Frames& out);
 

@@ -85,7 +85,9 @@ TEST(MissionItems, ADelayIsAHoldAtTheStepBefore) {
 TEST(MissionItems, WhatCannotBeFlownIsRefusedByName) {
   Item item = waypoint(1, 2, 3);
   item.command = 178;
-  EXPECT_EQ(refusal(item), "item 3, MAV_CMD_DO_CHANGE_SPEED (178): cannot be flown");
+  EXPECT_EQ(refusal(item),
+            "item 3, MAV_CMD_DO_CHANGE_SPEED (178): a speed cannot be flown; the vehicle flies at uav.limits.v_max of "
+            "the scenario: set that, and leave the speed out");
   item.command = 31'999;
   EXPECT_EQ(refusal(item), "item 3, MAV_CMD 31999: cannot be flown");
   item = waypoint(1, 2, 3);

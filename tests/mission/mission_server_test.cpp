@@ -118,6 +118,46 @@ TEST_F(Server, ReturnsWhatWasUploaded) {
   EXPECT_TRUE(taken_.empty());
 }
 
+TEST_F(Server, NamesThatFencesAndRallyPointsAreNotTaken) {
+  for (const std::uint8_t type : {std::uint8_t{1}, std::uint8_t{2}}) {
+    const auto answers = count(2, type);
+    EXPECT_EQ(result(answers), kUnsupported);
+    EXPECT_EQ(from_frame<MissionAck>(answers.back())->mission_type, type);
+    EXPECT_THAT(string_of(from_frame<StatusText>(answers.front())->text), ::testing::HasSubstr("fences and rally"));
+    EXPECT_EQ(only<MissionAck>(send(MissionRequestList{kVehicle.system, kVehicle.component, type})).type, kUnsupported);
+    EXPECT_EQ(only<MissionAck>(send(MissionRequestInt{0, kVehicle.system, kVehicle.component, type})).type,
+              kUnsupported);
+  }
+  EXPECT_TRUE(taken_.empty());
+}
+
+TEST_F(Server, ClearsTheMissionIfAllTypesAreCleared) {
+  upload(2);
+  EXPECT_EQ(taken_.size(), 2u);
+  EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 1})), kAccepted);
+  EXPECT_EQ(server_.items().size(), 2u);
+  EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 255})), kAccepted);
+  EXPECT_TRUE(taken_.empty());
+  EXPECT_TRUE(server_.items().empty());
+}
+
+TEST_F(Server, DeniesAPartOfAMission) {
+  upload(3);
+  CommandLong command;
+  command.target_system = kVehicle.system;
+  command.command = 300;
+  const auto start = [&](float first, float last) {
+    command.param[0] = first;
+    command.param[1] = last;
+    return from_frame<CommandAck>(send(command).back())->result;
+  };
+  EXPECT_EQ(start(1, 0), 2);
+  EXPECT_EQ(start(0, 1), 2);
+  EXPECT_TRUE(orders_.empty());
+  EXPECT_EQ(start(0, 2), 0);
+  EXPECT_EQ(start(0, 0), 0);
+}
+
 TEST_F(Server, RefusesFencesOtherStationsAndOtherVehicles) {
   EXPECT_EQ(result(count(2, 1)), kUnsupported);
   EXPECT_EQ(result(count(0, 1)), kAccepted);

@@ -62,7 +62,7 @@ TEST(MissionFile, RefusalsNameFileLineAndValue) {
   EXPECT_EQ(refusal("x,y,z\n1,nan,3\n", "a.csv"), "a.csv: line 2: y \"nan\" is no finite number");
   EXPECT_EQ(refusal("x,y\n", "a.csv"),
             "a.csv: line 1: column z is missing: give x, y, z, or latitude, longitude, height");
-  EXPECT_THAT(refusal("x,y,z,speed\n", "a.csv"), HasSubstr("line 1: column \"speed\" is unknown"));
+  EXPECT_THAT(refusal("x,y,z,colour\n", "a.csv"), HasSubstr("line 1: column \"colour\" is unknown"));
   EXPECT_EQ(refusal("x,y,z,action\n1,2,3,dance\n", "a.csv"),
             "a.csv: line 2: action dance is not pass, stop, land, return or follow");
   EXPECT_EQ(refusal("x,y,z,action,hold_s\n1,2,3,pass,4\n", "a.csv"),
@@ -78,6 +78,25 @@ TEST(MissionFile, RefusalsNameFileLineAndValue) {
               HasSubstr("mission.items[0]: type \"ComplexItem\" (survey) cannot be flown"));
   EXPECT_EQ(refusal("", "a.kml"), "a.kml: its name must end in .plan, .csv, .geojson or .json");
   EXPECT_EQ(refusal(std::string(100'000, '['), "a.plan"), "a.plan: is nested more deeply than 32 levels");
+}
+
+TEST(MissionFile, ASpeedIsRefusedByNameWhereverItStands) {
+  const auto geojson = [](const std::string& property) {
+    return R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {)" + property +
+           R"(}, "geometry": {"type": "Point", "coordinates": [8.5457, 47.3978, 10]}}]})";
+  };
+  EXPECT_EQ(refusal("x,y,z,Speed_mps\n1,2,3,4\n", "a.csv"),
+            std::string("a.csv: line 1: column \"Speed_mps\": ") + kNoSpeed);
+  EXPECT_EQ(refusal(geojson(R"("speed": 3)"), "a.geojson"),
+            std::string("a.geojson: features[0]: property speed: ") + kNoSpeed);
+  EXPECT_EQ(refusal(geojson(R"("colour": "red", "maxSpeed": null)"), "a.geojson"), "");
+}
+
+TEST(MissionFile, RallyPointsAreRefusedByName) {
+  std::string plan = testing::kPlan;
+  const std::string none = "\"points\": []";
+  plan.replace(plan.find(none), none.size(), "\"points\": [[47.3978, 8.5457, 10]]");
+  EXPECT_THAT(refusal(plan, "a.plan"), HasSubstr("has 1 rally points, which cannot be flown to"));
 }
 
 TEST(FenceFile, FencesOfAPlanAreRead) {
