@@ -37,22 +37,6 @@ bool all_finite(const std::array<float, 3>& a, const std::array<float, 3>& b) {
          std::all_of(b.begin(), b.end(), [](float x) { return std::isfinite(x); });
 }
 
-std::string px4_mode(std::uint32_t custom) {
-  constexpr std::array kMain{"", "MANUAL", "ALTCTL", "POSCTL", "AUTO", "ACRO", "OFFBOARD", "STABILIZED", "RATTITUDE"};
-  constexpr std::array kAuto{"", ".READY", ".TAKEOFF", ".LOITER", ".MISSION", ".RTL", ".LAND", ".RTGS", ".FOLLOW"};
-  const std::size_t main = custom >> 16U & 0xFFU, sub = custom >> 24U;
-  if (main == 0 || main >= kMain.size()) return "mode " + std::to_string(custom);
-  return std::string(kMain[main]) + (main == 4 && sub < kAuto.size() ? kAuto[sub] : "");
-}
-
-std::string ardupilot_mode(std::uint32_t custom) {
-  static const std::map<std::uint32_t, const char*> kModes{
-      {0, "STABILIZE"}, {1, "ACRO"}, {2, "ALT_HOLD"}, {3, "AUTO"},     {4, "GUIDED"},
-      {5, "LOITER"},    {6, "RTL"},  {9, "LAND"},     {16, "POSHOLD"}, {17, "BRAKE"}};
-  const auto found = kModes.find(custom);
-  return found == kModes.end() ? "mode " + std::to_string(custom) : found->second;
-}
-
 /// Metres north and east of the origin on a sphere, as PX4 projects (azimuthal equidistant).
 Vec3 ned_from(const GpsGlobalOrigin& origin, std::int32_t lat, std::int32_t lon, std::int32_t alt_mm) {
   constexpr double kEarthRadius = 6'371'000.0, kRadians = std::numbers::pi / 180.0 * 1e-7;
@@ -85,20 +69,7 @@ Firmware Autopilot::firmware() const {
   return heartbeat_.autopilot == kArduPilot ? Firmware::ArduPilot : Firmware::Other;
 }
 
-std::string Autopilot::mode() const {
-  if (!address_) return "";
-  return firmware() == Firmware::ArduPilot ? ardupilot_mode(heartbeat_.custom_mode) : px4_mode(heartbeat_.custom_mode);
-}
-
-std::array<float, 7> Autopilot::mode_command() const {
-  const std::uint32_t custom = heartbeat_.custom_mode;
-  if (firmware() == Firmware::ArduPilot) return {1, static_cast<float>(custom)};
-  return {1, static_cast<float>(custom >> 16U & 0xFFU), static_cast<float>(custom >> 24U)};
-}
-
-const char* Autopilot::following_mode() const { return firmware() == Firmware::ArduPilot ? "GUIDED" : "OFFBOARD"; }
-
-const char* Autopilot::landing_mode() const { return firmware() == Firmware::ArduPilot ? "LAND" : "AUTO.LAND"; }
+std::string Autopilot::mode() const { return address_ ? stack().mode(heartbeat_.custom_mode) : ""; }
 
 bool Autopilot::in_failsafe() const {
   return armed() && (heartbeat_.system_status == kCritical || heartbeat_.system_status == kEmergency);
@@ -239,17 +210,11 @@ void Autopilot::receive_truth(const HilStateQuaternion& hil, UTime received) {
 }
 
 void Autopilot::receive_parameter(const ParamValue& value) {
-  // PX4 puts an integer's bytes into the float, ArduPilot its value.
   double number = value.param_value;
-  if (firmware() != Firmware::ArduPilot && value.param_type == kInt32) {
+  if (stack().sends_integers_bytewise() && value.param_type == kInt32) {
     number = std::bit_cast<std::int32_t>(value.param_value);
   }
   if (parameters_.size() < kMaxParameters) parameters_[string_of(value.param_id)] = number;
-}
-
-double Autopilot::parameter(const std::string& name, double otherwise) const {
-  const auto found = parameters_.find(name);
-  return found == parameters_.end() ? otherwise : found->second;
 }
 
 EstimatorHealth Autopilot::estimator() const {

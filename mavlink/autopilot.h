@@ -12,14 +12,13 @@
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
 #include "mavlink/clock_fit.h"
+#include "mavlink/flight_stack.h"
 #include "mavlink/messages.h"
 
 namespace tern::mavlink {
 
 /// An older estimate does not count as the vehicle's position.
 inline constexpr Duration kStateAge{500'000};
-
-enum class Firmware : std::uint8_t { Px4, ArduPilot, Other };
 
 /// MAV_CMD.
 inline constexpr std::uint16_t kNavLand = 21, kNavTakeoff = 22, kDoSetMode = 176, kArmDisarm = 400,
@@ -47,6 +46,7 @@ class Autopilot {
 
   [[nodiscard]] const std::optional<Address>& address() const { return address_; }
   [[nodiscard]] Firmware firmware() const;
+  [[nodiscard]] const FlightStack& stack() const { return flight_stack(firmware()); }
   /// Whether frames arrive, and HEARTBEAT has reported the mode since the last silence. HEARTBEAT has only 1 Hz.
   [[nodiscard]] bool linked(UTime now) const {
     return address_ && !mode_is_old_ && now - last_received_ <= kLinkSilence;
@@ -62,12 +62,9 @@ class Autopilot {
   /// Receive time of the newest HEARTBEAT.
   [[nodiscard]] UTime mode_received() const { return mode_received_; }
   /// The parameters of DO_SET_MODE for the present mode.
-  [[nodiscard]] std::array<float, 7> mode_command() const;
-  /// Names of the mode that follows setpoints (PX4: OFFBOARD, ArduPilot: GUIDED) and of the one that lands.
-  [[nodiscard]] const char* following_mode() const;
-  [[nodiscard]] const char* landing_mode() const;
-  [[nodiscard]] bool follows() const { return mode() == following_mode(); }
-  [[nodiscard]] bool landing() const { return mode() == landing_mode(); }
+  [[nodiscard]] CommandParams mode_command() const { return stack().mode_command(heartbeat_.custom_mode); }
+  [[nodiscard]] bool follows() const { return mode() == stack().following_mode(); }
+  [[nodiscard]] bool landing() const { return mode() == stack().landing_mode(); }
   /// Whether it is in a failsafe: armed, and HEARTBEAT's system_status is critical or emergency.
   [[nodiscard]] bool in_failsafe() const;
   /// Whether the mode lands or returns, which a failsafe chooses.
@@ -97,9 +94,7 @@ class Autopilot {
   /// is disarmed when the first truth arrives, it is at the origin. If it is armed, the truth is shifted to agree with
   /// the estimate, and there is none before an estimate.
   void take_own_origin() { own_origin_ = true; }
-  [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
-  /// The value of a parameter, or `otherwise` if it was not read.
-  [[nodiscard]] double parameter(const std::string& name, double otherwise) const;
+  [[nodiscard]] const ParameterValues& parameters() const { return parameters_; }
   /// The newest STATUSTEXT of severity warning or worse. "Arming denied …" is followed by the newest "Preflight Fail
   /// …", which contains the reason.
   [[nodiscard]] std::string last_warning() const;
@@ -139,7 +134,7 @@ class Autopilot {
   std::optional<GpsGlobalOrigin> origin_;
   bool own_origin_ = false;
   Vec3 own_shift_ = Vec3::Zero();  ///< of the truth from the own origin, ENU, m
-  std::map<std::string, double> parameters_;
+  ParameterValues parameters_;
   std::string warning_, failed_check_;
   std::deque<CommandAck> acks_;
   std::deque<std::string> texts_;

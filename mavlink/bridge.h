@@ -8,19 +8,16 @@
 #include "executor/commanded_motion.h"
 #include "mavlink/autopilot.h"
 #include "mavlink/bridge_config.h"
-#include "mavlink/flight_identification.h"
-#include "mavlink/required_parameters.h"
+#include "mavlink/faults.h"
+#include "mavlink/mode_arbiter.h"
+#include "mavlink/outbox.h"
+#include "mavlink/parameter_exchange.h"
 #include "mavlink/tilt_ramp.h"
-#include "mavlink/tracking_lag.h"
+#include "mavlink/tracking_report.h"
+#include "mavlink/truth_anchor.h"
 #include "mavlink/vision_check.h"
 
 namespace tern::mavlink {
-
-/// MAV_COMP_ID_ONBOARD_COMPUTER, and MAV_COMP_ID_MISSIONPLANNER of the HEARTBEAT as a ground station.
-inline constexpr std::uint8_t kOwnComponent = 191, kGroundStationComponent = 190;
-/// After this many requests, a parameter without an answer counts as absent. If 20 % of the packets are lost in one
-/// direction, all six are lost with probability 0.2⁶ = 6·10⁻⁵.
-inline constexpr int kMaxParameterRounds = 6;
 
 /// The stage of a flight. Bridge has the tables of stages and events.
 enum class Stage : std::uint8_t {
@@ -101,11 +98,7 @@ const char* to_string(Stage stage);
 /// station, or its end be taken for the loss of one. So it is sent only if NAV_DLL_ACT was read as 0: the autopilot
 /// then acts on no such loss. An ArduPilot sends STATUSTEXT to every link.
 ///
-/// **A pilot's switch has priority.**
-/// 1. A mode is commanded only within 50 ms after HEARTBEAT has reported the current one. A request for HEARTBEAT
-///    precedes the command, to learn the mode that the command ends.
-/// 2. A mode that is neither the one before nor the commanded one is a pilot's choice: the bridge stands back.
-/// 3. If the bridge's command takes effect after that, the bridge commands the pilot's mode.
+/// **A pilot's switch has priority**: ModeArbiter.
 ///
 /// **Failsafe of a PX4.** PX4 returns to OFFBOARD as soon as it receives setpoints, in any failsafe. So no setpoint is
 /// sent while the vehicle may be in a failsafe: after a silence of COM_OF_LOSS_T, HEARTBEAT must report the mode first.
@@ -141,165 +134,112 @@ class Bridge {
     ordered_ = ordered_by_goal_ = false;
   }
   /// Whether the autopilot still has parameters that this bridge has set.
-  [[nodiscard]] bool has_set_parameters() const { return !originals_.empty(); }
+  [[nodiscard]] bool has_set_parameters() const { return parameters_.has_written(); }
 
   /// Returns the frames to send, in order, since the last call.
-  std::vector<Frame> take_frames() { return std::exchange(out_, {}); }
+  std::vector<Frame> take_frames() { return out_.take_frames(); }
   /// The estimated state in W, or nullopt before the first one. @pre the caller publishes each `at` once
   [[nodiscard]] std::optional<UavState> state() const { return in_world(autopilot_.state()); }
-  /// The true state in W, where the autopilot reports it (simulation); nullopt before the first estimate.
-  ///
-  /// W is the estimator's frame before take-off: there the truth equals the estimate, and a later difference is drift.
-  /// If the vehicle is armed when first seen, as by a restarted bridge, the truth equals the estimate of that time.
-  [[nodiscard]] std::optional<UavState> truth() const;
+  /// The true state in W (TruthAnchor), where the autopilot reports it (simulation); nullopt before the first estimate.
+  [[nodiscard]] std::optional<UavState> truth() const { return in_world(truth_.apply(autopilot_.truth())); }
   [[nodiscard]] VehicleStatus status(UTime now) const;
   /// Returns lines for the log since the last call.
-  std::vector<std::string> take_log_lines() { return std::exchange(log_lines_, {}); }
-  [[nodiscard]] Stage stage() const { return stage_; }
+  std::vector<std::string> take_log_lines() { return out_.take_log_lines(); }
+  [[nodiscard]] Stage stage() const { return at_.stage; }
   /// Drag and lag as this flight shows them. nullopt: not a PX4, or not enough motion.
-  [[nodiscard]] std::optional<FlightIdentification::Answer> measured() const { return identification_.answer(); }
+  [[nodiscard]] std::optional<FlightIdentification::Answer> measured() const { return tracking_.measured(); }
   [[nodiscard]] const Autopilot& autopilot() const { return autopilot_; }
   /// Whether this bridge must land the vehicle before it ends.
   [[nodiscard]] bool flies() const {
-    return stage_ == Stage::Engaging || stage_ == Stage::Climbing || stage_ == Stage::Following ||
-           stage_ == Stage::Landing;
+    return at_.stage == Stage::Engaging || at_.stage == Stage::Climbing || at_.stage == Stage::Following ||
+           at_.stage == Stage::Landing;
   }
 
  private:
-  /// Sender's address. The system id is replaced by the autopilot's once that is known.
-  static constexpr Address kSelf{1, kOwnComponent};
-  /// A command has taken effect, or is lost, within this time.
-  static constexpr Duration kCommandFlight{1'500'000};
+  /// The present stage with all that belongs to it alone. A change of stage begins a new one.
+  struct Present {
+    Stage stage = Stage::Waiting;
+    std::string why;  ///< reason of the stage
+    UTime since;
+    std::string refusal;               ///< text of the newest refused command
+    bool take_off_asked = false;       ///< Engaging
+    std::optional<UTime> rests_since;  ///< Climbing: at uav.start
+    bool landing_seen = false;         ///< Landing: the autopilot has reported the landing mode
+  };
+
+  // Stages (bridge_stages.cpp).
   void enter(Stage stage, const std::string& why = {});
   void step_stage(UTime now);
   void step_waiting(UTime now);
   void step_ready(UTime now);
   void step_engaging(UTime now);
-  void step_flying(UTime now);
-  void step_landing(UTime now);
-  void climb(UTime now);
-  void stay_while_apart(UTime now);
-  void stand_back(const std::string& why);
-  [[nodiscard]] bool is_taken_over();
-  [[nodiscard]] std::string other_pilot_reason() const;
-  [[nodiscard]] std::string mode_change_reason() const;
-  [[nodiscard]] std::string failsafe_reason() const;
-  [[nodiscard]] std::string beyond_last_bound(UTime now) const;
-  [[nodiscard]] bool is_ground_station() const;
-  void watch_following(UTime now);
-  void request_disarm(UTime now);
   void engage_next(UTime now);
-  void request_parameters(UTime now);
-  void write_parameter(const std::string& name, double value, bool integer);
-  void set_back_parameters(UTime now);
+  void request_take_off(UTime now);
+  void step_flying(UTime now);
+  void climb(UTime now);
+  void follow(UTime now);
+  void stay_while_apart(UTime now);
+  void step_landing(UTime now);
+  void stand_back(const std::string& why);
+  void hold_here(UTime now);
+
+  // Faults (bridge_faults.cpp): "" if nothing is wrong.
+  [[nodiscard]] std::string not_ready(UTime now) const;
+  [[nodiscard]] std::string parameters_fault() const;
+  [[nodiscard]] std::string estimate_fault(UTime now) const;
+  [[nodiscard]] std::string why_not_following(UTime now) const;
+  [[nodiscard]] bool setpoint_near(UTime now) const;
+  [[nodiscard]] std::vector<RequiredParameter> required() const;
+
+  // Messages to the autopilot (bridge_out.cpp).
+  void send_heartbeats();
   void request_streams(UTime now);
-  void request_mode(UTime now);
-  /// Commands the mode `wanted`, if HEARTBEAT has just reported the current one.
-  void command_mode(UTime now, const std::string& wanted, std::uint16_t number, const std::array<float, 7>& param);
-  /// Compares the mode of a new HEARTBEAT with the commanded one.
-  void watch_mode(UTime now);
-  void forget_commanded_mode();
-  [[nodiscard]] Vec3 derivative_gain() const;
-  [[nodiscard]] Duration lead() const;
-  [[nodiscard]] std::optional<LoopGains> level_gains() const;
+  void request_parameters(UTime now);
+  void send_vision(const UavState& local);
   void stream(UTime now);
   [[nodiscard]] bool is_silent() const;
-  void request_take_off(UTime now);
-  /// ArduPilot: setpoints do not lift the vehicle off the ground.
-  [[nodiscard]] bool takes_off_by_command() const { return autopilot_.firmware() == Firmware::ArduPilot; }
-  /// Whether an ArduPilot takes off by NAV_TAKEOFF: a setpoint would end that.
-  [[nodiscard]] bool is_taking_off() const { return takes_off_by_command() && autopilot_.taking_off(); }
-  void hold_here(UTime now);
-  void anchor_truth();
-  void anchor_truth_at_first_sight();
-  void watch_clock();
-  void watch_lag();
-  void report_measured();
-  void send_vision(const UavState& local);
-  void command(UTime now, std::uint16_t number, std::array<float, 7> param);
-  void request(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
-  [[nodiscard]] std::vector<RequiredParameter> required() const;
-  [[nodiscard]] std::vector<RequiredParameter> required_and_read() const;
-  [[nodiscard]] std::string not_ready(UTime now) const;
-  [[nodiscard]] std::string estimate_fault(UTime now) const;
-  [[nodiscard]] bool is_vision_silent(UTime now) const;
-  [[nodiscard]] std::string ground_fault() const;
-  [[nodiscard]] std::string why_not_following(UTime now) const;
-  [[nodiscard]] std::string tilt_fault(UTime now) const;
-  [[nodiscard]] std::string parameter_list() const;
-  [[nodiscard]] bool setpoint_near(UTime now) const;
-  [[nodiscard]] std::string clock_fault() const;
   [[nodiscard]] bool may_be_in_failsafe(UTime now) const;
+  [[nodiscard]] Duration lead() const;
+  [[nodiscard]] bool is_ground_station() const;
+
+  void receive_answer(const CommandAck& ack);
+  void watch_clock();
+  /// Whether the vehicle takes off by NAV_TAKEOFF: a setpoint would end that.
+  [[nodiscard]] bool is_taking_off() const {
+    return autopilot_.stack().takes_off_by_command() && autopilot_.taking_off();
+  }
   /// Whether the vehicle flies in the following mode: it lives on the bridge's setpoints.
   [[nodiscard]] bool is_flown() const { return autopilot_.armed() && autopilot_.follows() && in_air(); }
   [[nodiscard]] bool in_air() const { return autopilot_.landed() == std::optional(false); }
   [[nodiscard]] std::optional<UavState> in_world(std::optional<UavState> local) const;
-  template <class M>
-  void send(const M& message) {
-    const std::uint8_t system = autopilot_.address() ? autopilot_.address()->system : kSelf.system;
-    out_.push_back(to_frame(message, {system, kSelf.component}, sequence_++));
-  }
-  void send_heartbeats();
 
   BridgeConfig config_;
   UavSpec uav_;
-  Vec3 origin_;        ///< origin of the local frame, in W, m
-  UTime sent_vision_;  ///< time of the newest state sent as ODOMETRY
-  VisionCheck vision_;
-  std::optional<Vec3> truth_anchor_;  ///< added to the position of the truth
+  Vec3 origin_;  ///< origin of the local frame, in W, m
   Autopilot autopilot_;
   CommandedMotion command_;
   bool setpoint_received_ = false;
-  Stage stage_ = Stage::Waiting;
-  std::string why_;               ///< reason of the newest stage
+  Present at_;
+  UTime now_;                     ///< of the newest step
   bool ordered_;                  ///< to fly: by `start: arm` or by a GOAL
   bool ordered_by_goal_ = false;  ///< such an order also takes over a vehicle that is armed already
-  UTime stage_since_, now_;
-  int parameters_asked_ = 0;  ///< rounds of requests
-  struct Original {
-    double value = 0.0;
-    bool integer = false;
-    bool asked_back = false;  ///< it was sent back: from then on the autopilot's answer counts
-  };
-  std::map<std::string, Original> originals_;  ///< of the parameters that were set
   bool ends_ = false;
-  UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
-  std::optional<UTime> streaming_since_;
-  /// Mode and arming when the bridge was ordered to fly, or began to engage. Kept until the following mode is reached.
-  struct Found {
-    std::string mode;
-    bool armed = false;
-  };
-  std::optional<Found> found_;
-  struct CommandedMode {
-    UTime at;
-    std::string before, wanted;
-  };
-  std::optional<CommandedMode> commanded_mode_;  ///< until HEARTBEAT reports it
-  struct PilotsMode {
-    std::string mode;
-    std::array<float, 7> command;  ///< parameters of DO_SET_MODE
-  };
-  std::optional<PilotsMode> pilots_mode_;  ///< chosen by a pilot while a commanded mode was on its way
-  bool take_off_asked_ = false;            ///< since stage Engaging
-  bool landing_seen_ = false;              ///< the autopilot has reported the landing mode
-  std::optional<UTime> arm_asked_;
-  bool followed_ = false;  ///< when the last setpoint was sent
+  Outbox out_;
+  ModeArbiter modes_;
+  ParameterExchange parameters_;
+  Timer next_heartbeat_, next_timesync_, next_target_, next_streams_;
+  std::optional<UTime> streaming_since_, arm_asked_;
+  VisionCheck vision_;
+  UTime sent_vision_;  ///< time of the newest state sent as ODOMETRY
+  TruthAnchor truth_;
   TiltRamp tilt_ramp_;
-  std::optional<UTime> rests_since_;  ///< at uav.start, after the climb
-  TrackingLag lag_;
-  FlightIdentification identification_;
-  UTime lag_at_;
+  TrackingReport tracking_;
+  FollowRecord follow_record_;
   bool lag_was_logged_ = false;
   bool clock_is_off_ = false;    ///< logged for this flight
+  bool followed_ = false;        ///< when the last setpoint was sent
   UavState last_sent_;           ///< newest command sent while following
   std::optional<UavState> own_;  ///< command while not following: at rest here, or climbing; none in stage Waiting
-  std::string refusal_;          ///< text of the newest refused command
-  bool has_followed_ = false;    ///< since the vehicle was armed
-  std::optional<UTime> not_following_since_;  ///< if has_followed_
-  std::uint8_t sequence_ = 0, ground_station_sequence_ = 0;
-  std::vector<Frame> out_;
-  std::vector<std::string> log_lines_;
 };
 
 }  // namespace tern::mavlink

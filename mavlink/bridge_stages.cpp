@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "mavlink/bridge.h"
 
@@ -17,8 +17,6 @@ constexpr Duration kEngagePatience{120'000'000};
 /// The climb ends when the vehicle has been within this distance of uav.start, below this speed, for kRested.
 constexpr double kThere = 0.3, kThereSpeed = 0.4;  // m, m/s
 constexpr Duration kRested{1'000'000};
-/// Smallest climb, m: with less the vehicle may not leave the ground.
-constexpr double kMinClimb = 0.3;
 /// The climb's setpoint waits while it is this far above the vehicle, m: rotors spin up, and PX4 takes off slowly.
 constexpr double kClimbAhead = 0.5;
 /// Period of disarm requests. It is shorter than the spin-up, so an armed vehicle is still on the ground.
@@ -29,10 +27,46 @@ constexpr Duration kTakeOffPeriod{3'000'000};
 constexpr Duration kHomePatience{1'000'000};
 /// An estimate that has been apart from external vision for this long is not waited for any longer.
 constexpr Duration kApartPatience{1'000'000};
-constexpr float kPx4Offboard = 6, kArduPilotGuided = 4;
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+/// Deceleration when the vehicle is taken over in flight, m/s².
+constexpr double kStop = 4.0;
 
 }  // namespace
+
+void Bridge::enter(Stage stage, const std::string& why) {
+  if (stage == at_.stage && why == at_.why) return;
+  out_.log(fmt::format("{}{}{}", to_string(stage), why.empty() ? "" : ": ", why));
+  if (stage == at_.stage) {
+    at_.why = why;
+    return;
+  }
+  if (at_.stage == Stage::Following) {
+    if (const std::string line = tracking_.measured_line(); !line.empty()) out_.log(line);
+  }
+  at_ = Present{};
+  at_.stage = stage;
+  at_.why = why;
+  at_.since = now_;
+  out_.expect_command(now_);
+  if (stage == Stage::Waiting) own_.reset();
+  if (stage == Stage::Engaging) modes_.keep_found_once(autopilot_);
+}
+
+void Bridge::stand_back(const std::string& why) {
+  ordered_ = ordered_by_goal_ = followed_ = false;
+  modes_.forget_found();
+  streaming_since_.reset();
+  enter(Stage::StoodBack, why);
+}
+
+void Bridge::hold_here(UTime now) {
+  const auto here = state();
+  if (!here) return;
+  const bool dead = followed_ && !estimate_fault(now).empty();  // the last command is all that is known
+  own_ = dead ? last_sent_ : *here;
+  MotionSample& own = own_->motion;
+  own.p += own.v * (own.v.norm() / (2.0 * kStop));
+  own.v = own.a = own.j = Vec3::Zero();
+}
 
 void Bridge::step_waiting(UTime now) {
   if (!ends_) request_parameters(now);
@@ -45,96 +79,56 @@ void Bridge::step_waiting(UTime now) {
   if (autopilot_.linked(now) || !autopilot_.address()) enter(Stage::Waiting, why);
 }
 
-/// The reason why it cannot take off from its place, or "".
-std::string Bridge::ground_fault() const {
-  const Vec3 climb = uav_.start - state()->motion.p;
-  const double aside = climb.head<2>().norm(), battery = autopilot_.battery().value_or(1.0);
-  if (aside > config_.reach_m) {
-    return fmt::format("the vehicle stands {:.1f} m from below uav.start, more than {:g} m", aside, config_.reach_m);
-  }
-  if (climb.z() < kMinClimb) {
-    return fmt::format(
-        "the vehicle stands at a height of {:.1f} m in its own frame, and uav.start is at {:.1f} m, not {:g} m above "
-        "it: start the autopilot anew where it stands, or set uav.start higher",
-        state()->motion.p.z(), uav_.start.z(), kMinClimb);
-  }
-  return battery < config_.battery_start ? fmt::format("battery {:.0f} %", 100.0 * battery) : "";
-}
-
 void Bridge::step_ready(UTime now) {
   if (!not_ready(now).empty()) return enter(Stage::Waiting, not_ready(now));
   if (!followed_) hold_here(now);
-  if (!in_air()) anchor_truth();
   const bool armed = autopilot_.armed(), ours = armed && autopilot_.follows();
+  const bool by_command = autopilot_.stack().takes_off_by_command();
+  if (!in_air() && !armed) truth_.stand(autopilot_.state(), autopilot_.truth());
   if (ours && in_air()) return enter(is_taking_off() ? Stage::Engaging : Stage::Following);
-  const bool has_other_pilot = ordered_by_goal_ ? found_ && is_taken_over() : config_.start == Start::Arm;
-  if (armed && !ours && has_other_pilot) return stand_back(other_pilot_reason());
-  if (const std::string fault = in_air() ? "" : ground_fault(); !fault.empty()) return enter(Stage::Ready, fault);
-  if (ours) return enter(takes_off_by_command() ? Stage::Engaging : Stage::Climbing);
+  const bool has_other_pilot =
+      ordered_by_goal_ ? modes_.has_found() && modes_.is_taken_over(autopilot_) : config_.start == Start::Arm;
+  if (armed && !ours && has_other_pilot) return stand_back(other_pilot_reason(autopilot_, config_.without_remote));
+  const std::string grounded = in_air() ? "" : ground_fault(state()->motion.p, autopilot_, uav_, config_);
+  if (!grounded.empty()) return enter(Stage::Ready, grounded);
+  if (ours) return enter(by_command ? Stage::Engaging : Stage::Climbing);
   if (!ordered_) return enter(Stage::Ready, "waits for the pilot (arm, take off, switch) or for a new GOAL");
-  if (takes_off_by_command()) return enter(Stage::Engaging);
+  if (by_command) return enter(Stage::Engaging);
   if (streaming_since_ && now - *streaming_since_ >= kStreamFirst) enter(Stage::Engaging);
 }
 
 /// NAV_TAKEOFF has the height above home: the place of arming, unless home was set.
 void Bridge::request_take_off(UTime now) {
   const auto reported = autopilot_.home_height();
-  if (now < next_command_ || (!reported && now - autopilot_.arming_changed() < kHomePatience)) return;
+  if (!reported && now - autopilot_.arming_changed() < kHomePatience) return;
   const double home = reported.value_or(autopilot_.state()->motion.p.z());
-  command(now, kNavTakeoff, {0, 0, 0, 0, 0, 0, static_cast<float>(uav_.start.z() - home)});
-  next_command_ = now + kTakeOffPeriod;
-  take_off_asked_ = true;
+  const CommandParams above_home{0, 0, 0, 0, 0, 0, static_cast<float>(uav_.start.z() - home)};
+  if (out_.command(now, kNavTakeoff, above_home, kTakeOffPeriod)) at_.take_off_asked = true;
 }
 
 void Bridge::engage_next(UTime now) {
-  const float mode = takes_off_by_command() ? kArduPilotGuided : kPx4Offboard;
-  if (!autopilot_.follows()) return command_mode(now, autopilot_.following_mode(), kDoSetMode, {1, mode});
-  if (!autopilot_.armed()) {
-    if (!vision_.fault().empty()) return;
-    if (now >= next_command_) arm_asked_ = now;
-    return command(now, kArmDisarm, {1});
+  const FlightStack& stack = autopilot_.stack();
+  if (!autopilot_.follows()) {
+    return modes_.command(autopilot_, now, stack.following_mode(), kDoSetMode, stack.following_command(), out_);
   }
-  if (in_air() && !take_off_asked_ && !is_taking_off()) return enter(Stage::Following);
-  if (!takes_off_by_command()) return enter(Stage::Climbing);
+  if (!autopilot_.armed()) {
+    if (vision_.fault().empty() && out_.command(now, kArmDisarm, {1})) arm_asked_ = now;
+    return;
+  }
+  if (in_air() && !at_.take_off_asked && !is_taking_off()) return enter(Stage::Following);
+  if (!stack.takes_off_by_command()) return enter(Stage::Climbing);
   if (!in_air()) return request_take_off(now);
   const MotionSample here = state()->motion;
   if (std::abs(uav_.start.z() - here.p.z()) < kThere && here.v.norm() < kThereSpeed) enter(Stage::Climbing);
 }
 
-/// The autopilot's own reason for a mode that is not the bridge's, or "".
-std::string Bridge::failsafe_reason() const {
-  const bool has_no_pilot = config_.without_remote && autopilot_.armed() && autopilot_.comes_down();
-  if (!autopilot_.in_failsafe() && !has_no_pilot) return {};
-  return fmt::format("autopilot failsafe: it is in {}", autopilot_.mode());
-}
-
-std::string Bridge::mode_change_reason() const {
-  if (std::string failsafe = failsafe_reason(); !failsafe.empty()) return failsafe;
-  return fmt::format("the autopilot has changed to {}: {}", autopilot_.mode(),
-                     autopilot_.comes_down() ? "a pilot's command, or its failsafe" : "another pilot flies");
-}
-
-std::string Bridge::other_pilot_reason() const {
-  if (std::string failsafe = failsafe_reason(); !failsafe.empty()) return failsafe;
-  return fmt::format("the vehicle is {}in {}: another pilot flies", autopilot_.armed() ? "armed " : "",
-                     autopilot_.mode());
-}
-
-/// Whether another sender has changed mode or arming since the bridge began to engage. HEARTBEAT reports both together,
-/// and the bridge arms in the following mode only. So any other mode, or arming in another mode, is someone else's.
-bool Bridge::is_taken_over() {
-  if (!autopilot_.follows()) return !found_ || found_->mode != autopilot_.mode() || found_->armed < autopilot_.armed();
-  found_.reset();
-  return false;
-}
-
 void Bridge::step_engaging(UTime now) {
-  if (now - stage_since_ > kEngagePatience) {
-    return stand_back(refusal_.empty() ? "the autopilot does not answer" : refusal_);
+  if (now - at_.since > kEngagePatience) {
+    return stand_back(at_.refusal.empty() ? "the autopilot does not answer" : at_.refusal);
   }
   if (!autopilot_.linked(now)) return;
-  if (is_taken_over()) return stand_back(other_pilot_reason());
-  if (!in_air()) anchor_truth();
+  if (modes_.is_taken_over(autopilot_)) return stand_back(other_pilot_reason(autopilot_, config_.without_remote));
+  if (!in_air() && !autopilot_.armed()) truth_.stand(autopilot_.state(), autopilot_.truth());
   hold_here(now);
   engage_next(now);
 }
@@ -154,9 +148,9 @@ void Bridge::climb(UTime now) {
   }
   const bool rests = here && own.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere &&
                      here->motion.v.norm() < kThereSpeed && in_air();
-  if (!rests) return rests_since_.reset();
-  if (!rests_since_) rests_since_ = now;
-  if (now - *rests_since_ >= kRested) enter(Stage::Following);
+  if (!rests) return at_.rests_since.reset();
+  if (!at_.rests_since) at_.rests_since = now;
+  if (now - *at_.rests_since >= kRested) enter(Stage::Following);
 }
 
 /// The estimate moves, so the place to stay at is taken anew each time.
@@ -169,62 +163,70 @@ void Bridge::stay_while_apart(UTime now) {
 void Bridge::step_flying(UTime now) {
   if (!autopilot_.linked(now)) return;
   if (!autopilot_.armed()) return stand_back("the autopilot has disarmed");
-  if (!autopilot_.follows()) return stand_back(mode_change_reason());
+  if (!autopilot_.follows()) return stand_back(mode_change_reason(autopilot_, config_.without_remote));
   if (autopilot_.battery().value_or(1.0) < config_.battery_land) {
     return land(fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
   }
   watch_clock();
   if (!vision_.fault().empty()) return stay_while_apart(now);
-  if (stage_ == Stage::Climbing) return climb(now);
-  const bool near = setpoint_received_ && setpoint_near(now) && estimate_fault(now).empty() && tilt_fault(now).empty();
+  at_.stage == Stage::Climbing ? climb(now) : follow(now);
+}
+
+void Bridge::follow(UTime now) {
+  const bool near = setpoint_received_ && setpoint_near(now) && estimate_fault(now).empty() &&
+                    tilt_fault(autopilot_, tilt_ramp_, now).empty();
+  const auto here = state();
   if (near || followed_) {
-    if (const std::string far = beyond_last_bound(now); !far.empty()) return land(far);
+    const auto vehicle = here ? std::optional(here->motion.p) : std::nullopt;
+    const std::string far = bound_fault(command_.sample(now).p, vehicle, uav_, kLastBound);
+    if (!far.empty()) return land(far);
   }
   if (!near && followed_) hold_here(now);
   followed_ = near;
-  if (near) {
-    watch_lag();
-  } else {
-    identification_.pause();
-  }
-}
-
-void Bridge::request_disarm(UTime now) {
-  if (now < next_command_) return;
-  command(now, kArmDisarm, {0});
-  next_command_ = now + kDisarmPeriod;
+  if (!near || !here) return tracking_.pause();
+  const auto gains = autopilot_.stack().level_gains(autopilot_.parameters());
+  tracking_.add(*here, command_.sample(here->at), gains);
+  const std::string lag = lag_was_logged_ ? "" : tracking_.lag_line(config_.drag_per_s);
+  if (lag.empty()) return;
+  lag_was_logged_ = true;
+  out_.log(lag);
 }
 
 void Bridge::step_landing(UTime now) {
   if (!autopilot_.linked(now)) return;
   const bool arming = arm_asked_ && now - *arm_asked_ < kCommandFlight;
   if (!autopilot_.armed()) {
-    if (!arming) return enter(Stage::Landed, why_);
-    return request_disarm(now);
+    if (!arming) return enter(Stage::Landed, at_.why);
+    out_.command(now, kArmDisarm, {0}, kDisarmPeriod);
+    return;
   }
   if (!vision_.fault().empty()) hold_here(now);
   if (autopilot_.landing()) {
-    landing_seen_ = true;
+    at_.landing_seen = true;
     streaming_since_.reset();
     return;
   }
-  if (landing_seen_ || !autopilot_.follows()) return stand_back(mode_change_reason());
-  if (arming && !in_air()) return request_disarm(now);
-  // An ArduPilot converts the unknown position to integers; it does not use it.
-  const float here = autopilot_.firmware() == Firmware::ArduPilot ? 0.0F : kUnknown;
-  command_mode(now, autopilot_.landing_mode(), kNavLand, {0, 0, 0, here, here, here, 0});
+  if (at_.landing_seen || !autopilot_.follows())
+    return stand_back(mode_change_reason(autopilot_, config_.without_remote));
+  if (arming && !in_air()) {
+    out_.command(now, kArmDisarm, {0}, kDisarmPeriod);
+    return;
+  }
+  const FlightStack& stack = autopilot_.stack();
+  modes_.command(autopilot_, now, stack.landing_mode(), kNavLand, stack.landing_command(), out_);
 }
 
 void Bridge::step_stage(UTime now) {
-  switch (stage_) {
+  switch (at_.stage) {
     case Stage::Waiting: return step_waiting(now);
     case Stage::Ready: return step_ready(now);
     case Stage::Engaging: return step_engaging(now);
     case Stage::Climbing:
     case Stage::Following: return step_flying(now);
     case Stage::StoodBack:
-      if (config_.start == Start::Pilot && autopilot_.follows() && autopilot_.armed() && !pilots_mode_)
+      if (config_.start == Start::Pilot && autopilot_.follows() && autopilot_.armed() && !modes_.has_pilots_choice()) {
         enter(Stage::Waiting, "the pilot has switched to the following mode");
+      }
       return;
     case Stage::Landing: return step_landing(now);
     case Stage::Landed: return;
