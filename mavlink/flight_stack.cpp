@@ -114,15 +114,15 @@ Duration FlightStack::tilt_limited(const ParameterValues& /*parameters*/, const 
 }
 
 const FlightStack& flight_stack(Firmware firmware) {
-  static const Px4 kPx4;
-  static const ArduPilot kArduPilot;
-  static const LikePx4 kUnknown;
+  static const Px4 px4;
+  static const ArduPilot ardupilot;
+  static const LikePx4 unknown;
   switch (firmware) {
-    case Firmware::Px4: return kPx4;
-    case Firmware::ArduPilot: return kArduPilot;
+    case Firmware::Px4: return px4;
+    case Firmware::ArduPilot: return ardupilot;
     case Firmware::Other: break;
   }
-  return kUnknown;
+  return unknown;
 }
 
 }  // namespace tern::mavlink

@@ -1,4 +1,4 @@
-// What differs between the firmwares of autopilots.
+// The behaviour of autopilot firmwares: modes, take-off, setpoints, gains.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a bridge sends: frames to the autopilot, and lines to the log.
+// The output of a bridge: frames to the autopilot, and lines for the log.
 #pragma once
 
 #include <algorithm>

@@ -19,7 +19,7 @@ class ParameterExchange {
   /// direction, all six are lost with probability 0.2⁶ = 6·10⁻⁵.
   static constexpr int kMaxRounds = 6;
 
-  /// What a request may write besides.
+  /// Permission to write with a request.
   struct Writes {
     bool allowed = false;       ///< write recommended values
     bool raise_bounds = false;  ///< also those of the vehicle's bounds
@@ -27,7 +27,7 @@ class ParameterExchange {
 
   explicit ParameterExchange(UTime now) : next_(now) {}
 
-  /// Requests every parameter of the table that was not read or is not allowed, once per period.
+  /// Requests every parameter of the table, except those with an allowed value. Once per period.
   void request(const std::vector<RequiredParameter>& required, const Autopilot& autopilot, const Writes& writes,
                UTime now, Outbox& out);
   /// Sets back what was written, until the autopilot has confirmed it. The vehicle must be disarmed.

@@ -163,6 +163,8 @@ class MavlinkProcesses : public testing::Test, protected NetworkEnd {
     goal.id = id;
     bus->publish(channels::kGoal, goal);
   }
+  void expect_that_a_second_one_waits();
+  void expect_that_a_killed_one_comes_back_or_stands_back();
   void set_parameter(const char* name, float value) {
     ground_station(ParamSet{.param_value = value, .target_system = 1, .param_id = text_of<16>(name), .param_type = 9});
   }
@@ -177,6 +179,49 @@ class MavlinkProcesses : public testing::Test, protected NetworkEnd {
 };
 
 const CommandLong kPilot{.param = {1, 3, 0}, .command = kDoSetMode, .target_system = 1};
+
+/// A second bridge, at the port of the first and at another one, does not fly.
+void MavlinkProcesses::expect_that_a_second_one_waits() {
+  const std::int64_t first = status.header.name.sender_epoch_us;
+  auto same_port = make_bridge(relay.bridge_port);
+  ASSERT_TRUE(until([&] { return same_port->has_ended(); })) << "the first one's link and setpoints go on meanwhile";
+  EXPECT_EQ(same_port->wait(), 2);
+  EXPECT_THAT(same_port->output, HasSubstr("another bridge or ground station listens there"));
+  auto second = make_bridge(Socket().port());
+  EXPECT_TRUE(until([&] {
+    return std::any_of(beats.begin(), beats.end(), [](const tern::Heartbeat& b) {
+      return b.waiting_for.find("another process flies this vehicle") != std::string::npos;
+    });
+  }));
+  EXPECT_TRUE(status.following);
+  EXPECT_EQ(status.header.name.sender_epoch_us, first);
+}
+
+/// The bridge dies. By the failsafe's time, the vehicle is still in OFFBOARD or landing.
+void MavlinkProcesses::expect_that_a_killed_one_comes_back_or_stands_back() {
+  bridge->signal(SIGKILL);
+  EXPECT_EQ(bridge->wait(), -SIGKILL);
+  status = {};
+  start_bridge();
+  ASSERT_TRUE(until([&] { return status.following || status.mode == "AUTO.LAND"; })) << status.why_not;
+  if (status.mode == "AUTO.LAND") {
+    run_ms(2000);
+    EXPECT_FALSE(status.following);
+    EXPECT_EQ(status.mode, "AUTO.LAND");
+  }
+}
+
+/// One flight that shows much, since a take-off takes long.
+TEST_F(MavlinkProcesses, TheOneOfTwoIsKilledComesBackAndLands) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  ASSERT_NO_FATAL_FAILURE(expect_that_a_second_one_waits());
+  ASSERT_NO_FATAL_FAILURE(expect_that_a_killed_one_comes_back_or_stands_back());
+  if (!status.following) ASSERT_TRUE(until([&] { return !status.armed; })) << "its failsafe lands it";
+  bridge->signal(SIGTERM);
+  EXPECT_TRUE(until([&] { return !status.armed; }));
+  EXPECT_EQ(bridge->wait(), 0);
+}
 
 TEST_F(MavlinkProcesses, FlyAndLandWhenAskedToEnd) {
   start_bridge();
@@ -259,22 +304,6 @@ TEST_F(MavlinkProcesses, TellJumpsAndLandWithALowBattery) {
   EXPECT_THAT(status.why_not, HasSubstr("battery 10 %"));
 }
 
-TEST_F(MavlinkProcesses, AKilledBridgeComesBackOrStandsBack) {
-  start_bridge();
-  ASSERT_TRUE(until_following()) << status.why_not;
-  bridge->signal(SIGKILL);
-  EXPECT_EQ(bridge->wait(), -SIGKILL);
-  status = {};
-  start_bridge();
-  // By the failsafe's time, the vehicle is still in OFFBOARD or landing.
-  ASSERT_TRUE(until([&] { return status.following || status.mode == "AUTO.LAND"; })) << status.why_not;
-  if (status.mode == "AUTO.LAND") {
-    run_ms(2000);
-    EXPECT_FALSE(status.following);
-    EXPECT_EQ(status.mode, "AUTO.LAND");
-  }
-}
-
 TEST_F(MavlinkProcesses, AKilledBridgeComesBackWithTheTruthThatItTold) {
   const std::vector<std::string> sees{"--set", "mavlink.external_vision=true"};
   start_bridge(sees);
@@ -305,24 +334,6 @@ TEST_F(MavlinkProcesses, FlyOverALinkThatLosesDoublesAndReorders) {
     run_ms(100);
     ASSERT_TRUE(status.following) << status.why_not;
   }
-}
-
-TEST_F(MavlinkProcesses, OfTwoBridgesOneFlies) {
-  start_bridge();
-  ASSERT_TRUE(until_following()) << status.why_not;
-  const std::int64_t first = status.header.name.sender_epoch_us;
-  auto same_port = make_bridge(relay.bridge_port);
-  ASSERT_TRUE(until([&] { return same_port->has_ended(); })) << "the first one's link and setpoints go on meanwhile";
-  EXPECT_EQ(same_port->wait(), 2);
-  EXPECT_THAT(same_port->output, HasSubstr("another bridge or ground station listens there"));
-  auto second = make_bridge(Socket().port());
-  EXPECT_TRUE(until([&] {
-    return std::any_of(beats.begin(), beats.end(), [](const tern::Heartbeat& b) {
-      return b.waiting_for.find("another process flies this vehicle") != std::string::npos;
-    });
-  }));
-  EXPECT_TRUE(status.following);
-  EXPECT_EQ(status.header.name.sender_epoch_us, first);
 }
 
 TEST_F(MavlinkProcesses, StrangersChangeNothing) {
