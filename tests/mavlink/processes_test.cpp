@@ -217,7 +217,9 @@ TEST_F(MavlinkProcesses, TheOneOfTwoIsKilledComesBackAndLands) {
   ASSERT_TRUE(until_following()) << status.why_not;
   ASSERT_NO_FATAL_FAILURE(expect_that_a_second_one_waits());
   ASSERT_NO_FATAL_FAILURE(expect_that_a_killed_one_comes_back_or_stands_back());
-  if (!status.following) ASSERT_TRUE(until([&] { return !status.armed; })) << "its failsafe lands it";
+  if (!status.following) {
+    ASSERT_TRUE(until([&] { return !status.armed; })) << "its failsafe lands it";
+  }
   bridge->signal(SIGTERM);
   EXPECT_TRUE(until([&] { return !status.armed; }));
   EXPECT_EQ(bridge->wait(), 0);
