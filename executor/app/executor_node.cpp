@@ -82,26 +82,36 @@ void ExecutorNode::check_tracking(const UavState& state) {
   fall_silent_if_held_up(bus_.received());
   if (silent_since_ && state.at < *silent_since_) return;
   if (state.at < last_setpoint_ - kRemembered) return;
-  const Vec3 seen = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
-  const Vec3 tube = executor_->tube_at(state.at);
-  const Vec3 error = persistent_error_.add(seen, bus_.received());
-  const Vec3 excess = seen - tube, before = std::exchange(excess_, excess);
-  if (seen.maxCoeff() > kRejoinBeyond && !(error.maxCoeff() > kRejoinBeyond)) return;
-  if (silent_since_ && check_after_silence(state, seen)) return;
-  if (!following_) {
-    if (status_.following) return;  // its messages are too old: the committed trajectory is flown to its end
-    if (!has_followed_) tube_.note_error(error);
-    if (error.maxCoeff() > kRejoinBeyond) rejoin(state, false);
+  const bool after_silence = silent_since_.has_value();
+  const FollowWatch::Judgement judgement = watch_.judge({.measured = state.motion,
+                                                         .committed = executor_->sample(state.at),
+                                                         .tube = executor_->tube_at(state.at),
+                                                         .after_silence = after_silence,
+                                                         .follows = following_,
+                                                         .reports_following = status_.following},
+                                                        bus_.received());
+  if (judgement.answer == Following::Unsure) return;
+  silent_since_.reset();
+  if (judgement.answer == Following::Departed) rejoin(state, true);
+  if (after_silence) last_setpoint_ = std::max(last_setpoint_, bus_.received());
+  act_on(judgement, state);
+}
+
+void ExecutorNode::act_on(const FollowWatch::Judgement& judgement, const UavState& state) {
+  const Following answer = judgement.answer;
+  if (answer == Following::Departed || answer == Following::OldMessages) return;
+  if (answer == Following::Carried || answer == Following::Held) {
+    if (!has_followed_) tube_.note_error(judgement.error);
+    if (answer == Following::Carried) rejoin(state, false);
     return;
   }
-  const bool outside = (excess.cwiseMin(before).array() > kMinError).any();
-  const bool lost = (error - tube).maxCoeff() > kRejoinBeyond;
-  if (!lost) tube_.add(error, executor_->at_rest(state.at - kSettled), state.at);
-  if (outside) tube_.add_exit(state.at);
-  if (!std::exchange(outside_tube_, outside) && outside) {
-    ++tube_exits_;
+  const bool lost = answer == Following::Lost;
+  if (!lost) tube_.add(judgement.error, executor_->at_rest(state.at - kSettled), state.at);
+  if (judgement.outside) tube_.add_exit(state.at);
+  if (judgement.leaves) {
+    const Vec3& error = judgement.error;
     log::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
-              error.x(), error.y(), error.z(), tube_exits_);
+              error.x(), error.y(), error.z(), watch_.exits());
   }
   if (lost) rejoin(state, true);
 }
@@ -120,18 +130,6 @@ void ExecutorNode::drop_unsent_plan() {
   if (!executor_->drop_unsent_plan(last_setpoint_)) return;
   heading_.drop_from(start);
   log::info("dropped the newest plan: no request has reported it to the vehicle");
-}
-
-bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error) {
-  silent_since_.reset();
-  const Vec3 tube = executor_->tube_at(state.at);
-  const MotionSample mine = executor_->sample(state.at);
-  const bool turns = tube.isZero(0.0) && ((state.motion.v - mine.v).cwiseAbs().maxCoeff() > kJoinTolerance ||
-                                          (state.motion.a - mine.a).cwiseAbs().maxCoeff() > kJoinTolerance);
-  const bool parted = turns || ((error - tube).array() > kJoinTolerance).any();
-  if (parted) rejoin(state, true);
-  last_setpoint_ = std::max(last_setpoint_, bus_.received());
-  return parted;
 }
 
 void ExecutorNode::on_estimate_shift(const std::optional<Vec3>& by) {

@@ -15,16 +15,13 @@
 #include "executor/committed_heading.h"
 #include "executor/estimate_resets.h"
 #include "executor/executor.h"
+#include "executor/follow_watch.h"
 #include "executor/rejoin_guard.h"
 #include "executor/vehicle_inputs.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 
 namespace tern {
-
-/// A vehicle that is outside its tube by more than this must rejoin, m. Below it, its controller brings it back. While
-/// the vehicle does not follow, it is the largest distance from the setpoint.
-inline constexpr double kRejoinBeyond = 0.1;
 
 /// Flies plans: requests them, adopts them, and publishes a setpoint at 100 Hz and at each knot of the trajectory.
 /// Receives UAV_STATE, VEHICLE_STATUS, GOAL, PLAN and PLAN_HEADING; publishes HORIZON_REQUEST, SETPOINT and GOAL.
@@ -45,10 +42,8 @@ inline constexpr double kRejoinBeyond = 0.1;
 ///
 /// | event                                          | state     | effect                                              |
 /// |------------------------------------------------|-----------|-----------------------------------------------------|
-/// | two UAV_STATEs in turn outside the tube        | Following | the exit is logged and counted; the tube is widened |
-/// | beyond the tube by > kRejoinBeyond (3 states)  | Following | rejoin                                              |
-/// | off the setpoint by > kRejoinBeyond (3 states) | Holding   | rejoin                                              |
-/// | first UAV_STATE since the silence began        | Silent    | Silent ends; rejoin if it is off the trajectory     |
+/// | a UAV_STATE                                    | any       | by FollowWatch                                      |
+/// | first UAV_STATE since the silence began        | Silent    | Silent ends                                         |
 /// | the vehicle stops following, or mode Stop      | Following | a plan that no request contained yet is dropped;    |
 /// |                                                |           | the committed trajectory is flown to its end        |
 /// | a start that RejoinGuard refuses               | Holding   | Waiting, with the reason                            |
@@ -73,7 +68,7 @@ class ExecutorNode final : public Node {
   /// nullptr in state Waiting.
   [[nodiscard]] const Executor* executor() const { return executor_ ? &*executor_ : nullptr; }
   /// Number of times that the vehicle has left its tube.
-  [[nodiscard]] std::int64_t tube_exits() const { return tube_exits_; }
+  [[nodiscard]] std::int64_t tube_exits() const { return watch_.exits(); }
   /// The reason of state Lost; empty in the other states.
   [[nodiscard]] const std::string& lost() const { return lost_; }
   /// Of all PLAN_HEADINGs received.
@@ -101,6 +96,7 @@ class ExecutorNode final : public Node {
   void wait_until_stationary(const UavState& state);
   void begin(const UavState& state);
   void check_tracking(const UavState& state);
+  void act_on(const FollowWatch::Judgement& judgement, const UavState& state);
   /// @param counts  whether the shift counts for RejoinGuard
   void rejoin(const UavState& state, bool counts);
   void lose(const std::string& why);
@@ -109,8 +105,6 @@ class ExecutorNode final : public Node {
   void fall_silent(UTime now);
   /// Drops the newest plan if no request has contained it: the vehicle does not know it, and would be elsewhere.
   void drop_unsent_plan();
-  /// Leaves Silent by the first state since it began. @return whether the vehicle is off the trajectory and rejoins
-  bool check_after_silence(const UavState& state, const Vec3& error);
   void on_estimate_shift(const std::optional<Vec3>& by);
   void update_tube(UTime now);
   void publish_setpoints(UTime now);
@@ -137,10 +131,7 @@ class ExecutorNode final : public Node {
   EstimateResets resets_;
   std::optional<UTime> left_at_;  ///< when VEHICLE_STATUS last reported that the vehicle no longer follows
   Vec3 sigma_ = Vec3::Zero();     ///< standard deviation of the estimate, m
-  std::int64_t tube_exits_ = 0;
-  bool outside_tube_ = false;
-  PersistentError persistent_error_;
-  Vec3 excess_ = Vec3::Zero();               ///< error of the newest state minus the tube, m
+  FollowWatch watch_;
   double measured_yaw_ = 0.0;                ///< rad, newest
   std::optional<YawFollower> yaw_follower_;  ///< empty in state Waiting
   CommittedHeading heading_;
