@@ -27,18 +27,17 @@ enum class Following : std::uint8_t { Unsure, Departed, OldMessages, Carried, He
 
 /// Judges UAV_STATEs. The *persistent error* is PersistentError's; the *excess* is the error minus the tube.
 ///
-/// | answer      | the state                                                     | what the executor does |
-/// |-------------|---------------------------------------------------------------|-------------------------------------|
-/// | Unsure      | off by more than kRejoinBeyond, the persistent error is not   | waits: it may be noise, or forged |
-/// | Departed    | after a silence: outside the tube, or with an empty tube in   | rejoins | |             | another
-/// motion                                                |                                     | | OldMessages | does
-/// not follow, though VEHICLE_STATUS says so                | flies the committed trajectory to   | |             | |
-/// its end                             | | Carried     | does not follow, persistent error above kRejoinBeyond |
-/// rejoins; that is no error of the    | |             | | estimate                            | | Held        | does
-/// not follow                                               | nothing                             | | Lost        |
-/// persistent error more than kRejoinBeyond outside the tube     | rejoins                             | | Outside |
-/// this state and the one before are outside the tube            | widens the tube                     | | Inside | any
-/// other                                                     | measures the tube                   |
+/// | answer      | the state                                                            | effect                   |
+/// |-------------|----------------------------------------------------------------------|--------------------------|
+/// | Unsure      | off by more than kRejoinBeyond, but the persistent error is smaller  | none: noise, or forged   |
+/// | Departed    | after a silence: outside the tube                                    | rejoin                   |
+/// | Departed    | after a silence: in another motion, with an empty tube               | rejoin                   |
+/// | OldMessages | does not follow, but VEHICLE_STATUS reports that it does             | none: flies to the end   |
+/// | Carried     | does not follow, persistent error above kRejoinBeyond                | rejoin, without a count  |
+/// | Held        | does not follow                                                      | none                     |
+/// | Lost        | persistent error more than kRejoinBeyond outside the tube            | rejoin                   |
+/// | Outside     | this state and the one before are outside the tube                   | the tube is widened      |
+/// | Inside      | any other                                                            | the tube is measured     |
 class FollowWatch {
  public:
   struct Judgement {
