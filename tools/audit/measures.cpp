@@ -18,14 +18,17 @@ constexpr double kStep = 0.001;  ///< s; the width of the bounds is quadratic in
 /// Most steps of one span. After a long gap the bounds are wide in any case.
 constexpr double kMaxSteps = 10'000.0;
 
-/// Least time of a chord between noisy positions, s. Noise of 5 cm per axis lengthens one at 3 m/s by 0.2 %.
-constexpr double kNoisyChord = 0.5;
+/// Chords between positions that an estimator has measured. Along a straight way, errors at the joints cancel. Errors
+/// across it lengthen a chord L to at most √(L² + e²). So chords are long, and shortened by that. At the ends of the
+/// way, errors along it remain, of e at most.
+constexpr double kMeasuredChord = 1.0;  ///< least length, m
+constexpr double kMeasuredError = 0.1;  ///< e, the largest difference of the errors at both ends, m
 
-/// Returns the least time of a chord between recorded positions, s. Those of the simulator's own vehicle are exact.
-double least_chord(const FlightRecord& record) {
-  if (record.states.empty() || record.results.empty()) return kNoisyChord;
+/// Whether the recorded positions are exact: those of the simulator's own vehicle.
+bool has_exact_states(const FlightRecord& record) {
+  if (record.states.empty() || record.results.empty()) return false;
   const std::int64_t referee = record.results.back().header.name.sender_epoch_us;
-  return record.states.front().header.name.sender_epoch_us == referee ? 0.0 : kNoisyChord;
+  return record.states.front().header.name.sender_epoch_us == referee;
 }
 
 /// A time step of the flight, so short that the motion is nearly straight.
@@ -72,7 +75,7 @@ Step step_of(const MotionSpan& span, double a, double b) {
 class Measuring {
  public:
   Measuring(const FlightRecord& record, const Window& window)
-      : record_(record), window_(window), least_chord_s_(least_chord(record)) {
+      : record_(record), window_(window), exact_(has_exact_states(record)) {
     for (const Region& region : record.regions) measures_.regions.emplace_back().region = region.name;
   }
 
@@ -93,7 +96,7 @@ class Measuring {
     }
     const bool surely = begin >= window_.unsure.seconds() && begin + span.curve.length_s() <= sure_to_s();
     if (span.wander_m > 0.0 && surely) {
-      take_chord(begin, span);
+      take_chord(span);
     } else {
       chord_from_.reset();
     }
@@ -108,21 +111,24 @@ class Measuring {
       const Duration early = window_.to - record_.states.back().at;
       measures_.unseen_s = (std::max(late, Duration{}) + std::max(early, Duration{})).seconds();
     }
+    measures_.path_m.low = std::max(measures_.path_m.low, 0.0);
     widen();
     measures_.top_speed.low = surely_looked_at();
     return std::move(measures_);
   }
 
  private:
-  /// Adds chords between recorded positions at least least_chord_s_ apart. Positions of an aircraft are measured:
-  /// chords from each to the next would add their noise to the path.
-  void take_chord(double begin_s, const MotionSpan& span) {
-    if (!chord_from_) chord_from_ = {begin_s, span.curve.p(0.0)};
-    const double end_s = begin_s + span.curve.length_s();
-    if (end_s - chord_from_->first < least_chord_s_) return;
+  /// Adds the chord from the last joint to the end of this span, if it is long enough.
+  void take_chord(const MotionSpan& span) {
+    if (!chord_from_) {
+      chord_from_ = span.curve.p(0.0);
+      if (!exact_) measures_.path_m.low -= kMeasuredError;
+    }
     const Vec3 end = span.curve.p(span.curve.length_s());
-    measures_.path_m.low += (end - chord_from_->second).norm();
-    chord_from_ = {end_s, end};
+    const double chord = (end - *chord_from_).norm();
+    if (!exact_ && chord < kMeasuredChord) return;
+    measures_.path_m.low += exact_ ? chord : std::sqrt(chord * chord - kMeasuredError * kMeasuredError);
+    chord_from_ = end;
   }
   [[nodiscard]] double sure_to_s() const { return (window_.sure_to() - window_.from).seconds(); }
   [[nodiscard]] bool begins_at_rest() const {
@@ -195,10 +201,10 @@ class Measuring {
 
   const FlightRecord& record_;
   Window window_;
-  double least_chord_s_;
+  bool exact_;  ///< the recorded positions
   Measures measures_;
   std::vector<Step> steps_;
-  std::optional<std::pair<double, Vec3>> chord_from_;  ///< begin of the chord: s in the window, and position, m
+  std::optional<Vec3> chord_from_;  ///< where the next chord begins, m, W
 };
 
 }  // namespace
