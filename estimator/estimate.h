@@ -72,14 +72,16 @@ inline constexpr int kTroubles = 16;
 /// Returns what happened, why it may be, and what to do, in words: at most 150 bytes.
 std::string to_text(Trouble trouble);
 
+/// The phase of an Estimator, and what its estimate() then is.
+///
 /// | phase   | while                                                                 | estimate()   |
 /// |---------|-----------------------------------------------------------------------|--------------|
 /// | Waiting | the vehicle has not rested for EstimatorConfig::rest_s                | none         |
-/// | AtRest  | it has, and still rests: biases and tilt are measured again and again | the rest     |
+/// | AtRest  | it has, and still rests: biases and tilt are measured continuously    | at rest      |
 /// | Moving  | it has moved, or start() gave its state                               | the filter's |
 /// | Lost    | the IMU was silent for longer than kMaxImuGap in motion, or σ exceeds 1 km | none         |
 ///
-/// Lost ends with start() alone: without a position nothing else can end it.
+/// Only start() ends Lost, because it gives a position.
 enum class EstimatorPhase : std::uint8_t { Waiting, AtRest, Moving, Lost };
 
 struct EstimatorStatus {

@@ -40,7 +40,7 @@ struct Estimator::State {
   RestPlace place;
   EstimatorStatus status;
 
-  // The rest serves the functions above.
+  // Everything below serves the functions above.
   InputOutcome refuse(Trouble trouble);
   void note(Trouble trouble);
   [[nodiscard]] ImuStep step_of(const ImuSample& sample, const ImuRange& range);

@@ -12,10 +12,10 @@
 
 namespace tern {
 
-/// Deepest nesting of a file. The parser needs no stack of its own beyond it.
+/// Deepest nesting of a file: it bounds the memory that a hostile file can take.
 inline constexpr int kMaxJsonDepth = 32;
 
-/// Parses a text. An Error if it is no JSON, or nested more deeply than kMaxJsonDepth.
+/// Parses a text. @return an Error if it is not JSON, or nested more deeply than kMaxJsonDepth
 inline Result<nlohmann::json> parse_json(std::string_view text) {
   bool is_deep = false;
   const auto watch = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
@@ -28,7 +28,7 @@ inline Result<nlohmann::json> parse_json(std::string_view text) {
   return json;
 }
 
-/// Returns the member of an object; null if it is missing, or for a value that is no object.
+/// Returns the member of an object; null if it is missing, or if the value is not an object.
 inline const nlohmann::json& member(const nlohmann::json& json, const char* name) {
   static const nlohmann::json null;
   if (!json.is_object()) return null;
@@ -36,7 +36,7 @@ inline const nlohmann::json& member(const nlohmann::json& json, const char* name
   return found == json.end() ? null : *found;
 }
 
-/// Returns a text without control characters, at most 64 bytes; "" if the value is no text.
+/// Returns a text without control characters, at most 64 bytes; "" if the value is not a text.
 inline std::string short_text(const nlohmann::json& json) {
   if (!json.is_string()) return "";
   std::string text = json.get<std::string>().substr(0, 64);

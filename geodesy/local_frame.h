@@ -33,7 +33,8 @@ class LocalFrame {
   std::shared_ptr<const Impl> impl_;  // shared, since it never changes
 };
 
-/// Returns why a place is none on the earth, as "latitude 91 is out of range [-90, 90]"; "" if it is one.
+/// Returns why these coordinates do not exist on the earth, such as "latitude 91 is out of range [-90, 90]"; "" if they
+/// do.
 std::string why_not_on_earth(const GeodeticPoint& place);
 
 /// Largest height of a place above or below the ellipsoid, m.

@@ -45,19 +45,18 @@ struct Remembered {
 /// | Waiting | at the start; until the vehicle follows                                | Hold                         |
 /// | Flying  | the vehicle follows; a step is over; a detour is over                  | Go to the step's position    |
 /// | Staying | the vehicle rests at a Stop, or is beside its track                    | the same                     |
-/// | Paused  | a goal of somebody else with a larger id                               | none                         |
+/// | Paused  | a goal of another process with a larger id                             | none                         |
 /// | Paused  | pause(), until go_on()                                                 | Hold                         |
 /// | Done    | the last step is over                                                  | the last one                 |
 /// | Failed  | a step takes longer than time_limit_s(), or its track is lost          | Hold                         |
 ///
 /// - **Pass.** The next goal is sent kGoalLatency before the vehicle enters the radius, since it takes effect that much
-///   later. The vehicle has then no need to stop. If it turns away before it was within the radius, the step is flown
-///   to again, and the next goal is sent within the radius.
+///   later. The vehicle then need not stop. If it turns away before it was within the radius, it flies to the step
+///   again, and the next goal is sent within the radius.
 /// - **Paused.** A goal to hold or stop pauses the mission. A goal to go to is a detour: the mission goes on when the
 ///   vehicle rests there. So a goal at the vehicle's own position lets it go on at once.
-/// - **Pilot.** Steps are judged and goals are made only while the vehicle follows. A new goal would take the vehicle
-/// back
-///   from its pilot.
+/// - **Pilot.** Steps are judged and goals are made only while the vehicle follows. A new goal would take it away from
+///   a pilot.
 /// - **Restart.** The number of the step is part of a goal's id (step_of). The vehicle repeats its goal, so a new
 ///   process finds the step in it.
 class Progress {
@@ -74,7 +73,7 @@ class Progress {
   void receive_track(const Vec3& centre, UTime now);
   /// Begins.
   /// @param heard  the vehicle's newest goal: if it is one of this mission, the mission goes on from there
-  /// @param remembered  where an earlier process of this flight stood, for goals that tell no step
+  /// @param remembered  where an earlier process of this flight stood, for goals whose id holds no step
   void start(const std::optional<Goal>& heard, const std::optional<Remembered>& remembered, UTime now);
 
   /// An operator's orders. Pausing holds the vehicle; going on flies to the present step. @return false if it is not
@@ -135,7 +134,7 @@ class Progress {
   std::string why_failed_;
 };
 
-/// The step of a goal that leads to none: of a goal to hold.
+/// Stands for a step in the id of a goal that leads to none: a goal to hold.
 inline constexpr int kNoStep = 4'095;
 
 /// Returns the number of the step in a goal's id, 0 … kMaxSteps − 1; nullopt for other ids.
@@ -146,8 +145,8 @@ std::int64_t goal_id(int step, UTime now, std::int64_t largest);
 /// A step may take this long, s: as a flight may (flight_timeout_s), and 20 s more for detours around movers.
 double time_limit_s(const Vec3& from, const Vec3& to, const Limits& limits);
 
-/// From a goal to the first setpoint that leads there at least: the lead of a request and an answer. A smaller value
-/// brakes more at a pass, a larger one misses the radius.
+/// Time from a goal to the first setpoint that leads there: at least the lead of a request, and an answer. With a
+/// smaller value the vehicle brakes more at a pass; with a larger one it misses the radius.
 inline constexpr Duration kGoalLatency{100'000};
 /// A vehicle slower than this is at rest, m/s: above the noise of estimates.
 inline constexpr double kSpeedAtRest = 0.3;

@@ -20,7 +20,7 @@ struct Site {
   double landing_height = 1.0;      ///< the last goal of a landing is this far above the ground, m, > 0
 };
 
-/// A list of steps in the making.
+/// Collects steps.
 class StepList {
  public:
   explicit StepList(const Site& site) : site_(site) {}

@@ -10,7 +10,7 @@ namespace tern {
 
 /// The largest depth step between neighbours of one cluster is kStep + kStepSigmas · σ(z). For a lidar it is larger by
 /// kStepPixels · pixel · z, since its rows are far apart on slanted surfaces.
-inline constexpr double kStep = 0.25;             ///< m: nearer things count as one
+inline constexpr double kStep = 0.25;             ///< m: things that are nearer to each other become one cluster
 inline constexpr double kStepSigmas = 2.8284271;  ///< 2√2: two standard deviations of a difference
 inline constexpr double kStepPixels = 1.5;
 
@@ -25,8 +25,9 @@ class Clusters {
 
   /// Begins with a picture whose pixels are in no group.
   void begin(const DepthPicture& picture);
-  /// Makes a group of each set of pixels that hang together by touching neighbours (8 of them). Afterwards these pixels
-  /// are in the new groups only. O(pixels). @pre each pixel is a surface and occurs once
+  /// Makes a group of each connected set of pixels. A pixel is connected with those of its 8 neighbours that continue
+  /// its depth. Afterwards these pixels are in the new groups only. O(pixels). @pre each pixel is a surface and occurs
+  /// once
   void split(const DepthPicture& picture, std::span<const int> pixels, int level);
 
   [[nodiscard]] int count() const { return static_cast<int>(groups_.size()); }

@@ -50,19 +50,23 @@ class ClusterRays {
 
 /// Fits a corner to a cluster, and sets `fitted` and `face` of its rays.
 ///
-/// A pixel i has the depth z_i and the ray d_i. An axis a faces the sensor if the sensor lies outside the 10–90 % range
-/// of the points' coordinates a. The depth of a corner p (relative to the sensor) along a ray is
-///     z_i(p) = max over facing axes a of p_a / d_ia,
-/// as a ray enters a box through the last of its front planes. Starting with p at the quantiles, each turn gives every
-/// ray to the axis of its maximum. Then p_a is the mean of z_i d_ia, weighted by 1/(σ_i d_ia)². Rays that are off by
-/// more than a gate are left out; the gate narrows to 2σ + 2 cm. So of two surfaces behind each other the near one is
-/// fitted.
+/// Pixel i has the depth z_i and the ray d_i. A box shows its face across axis a if the sensor lies outside the 10–90 %
+/// range of the points' coordinates along a. A ray enters a box through the last of its front planes. The depth of a
+/// corner p (relative to the sensor) along ray i is therefore
 ///
-/// A face whose rays fit another face as well is left out: the cut end of a beam would look like a face. A face is weak
-/// unless it has max(12, 4 %) rays, two pixels each way, and rays that meet it at more than kGrazing pixels.
+///     z_i(p) = max over the shown faces a of p_a / d_ia
 ///
-/// If less than kGoodShare of the rays fit, the cluster may be several objects. Then the fit starts again with the
-/// nearest parts of the cluster, and the fit with the most rays is returned.
+/// 1. p starts at the nearer quantile of each shown axis.
+/// 2. Every ray is assigned to the face at which z_i(p) is attained. Rays farther than 2σ + 2 cm from it are left out.
+///    Towards the sensor this gate is wider at first, by 0.25 m, and narrows: if one surface lies behind another, the
+///    nearer one is fitted.
+/// 3. p_a becomes the mean of z_i d_ia over the rays of face a, weighted by 1/(σ_i d_ia)². Steps 2 and 3 are repeated.
+/// 4. A face is dropped if its rays fit the other faces nearly as well. Otherwise the end of a beam that the picture
+///    cuts off would pass for a face. Steps 2 and 3 are repeated without it.
+/// 5. If less than 90 % of the rays fit, the cluster may be several objects. The fit then starts anew with the nearest
+///    parts of the cluster, and the fit with the most rays is returned.
+///
+/// A face is weak if it has fewer than max(12, 4 %) rays, is one pixel wide, or if its rays graze it.
 class CornerFitter {
  public:
   Corner fit(const DepthPicture& picture, ClusterRays& rays);

@@ -40,8 +40,8 @@ PictureShape camera_shape(double horizontal_fov, double vertical_fov, int column
 /// wraps.
 PictureShape lidar_shape(double azimuth_fov, double elevation_min, double elevation_max, int columns, int rows);
 
-/// The noise of depths: standard deviation σ(z) = constant_m + per_m · z². The noise of a stereo camera is common to
-/// blocks of block × block pixels (Karlsruhe and RealSense data sheets call it spatial correlation).
+/// The noise of depths: standard deviation σ(z) = constant_m + per_m · z². All pixels of a block × block square share
+/// the noise of a stereo camera (spatial correlation in the RealSense data sheet).
 struct DepthNoise {
   double constant_m = 0.0;  ///< m, ≥ 0
   double per_m = 0.0;       ///< 1/m, ≥ 0
@@ -100,7 +100,7 @@ class DepthPicture {
   /// A picture at the origin without a return.
   explicit DepthPicture(std::shared_ptr<const RayGrid> grid);
 
-  /// Sets the pose and keeps the depths: the picture as seen from where the vehicle believes to be. O(pixels).
+  /// Sets the pose and keeps the depths: a picture of the true world then lies at the believed pose. O(pixels).
   void set_pose(const SensorPose& pose);
   /// Sets the pose, and every depth to `no return`.
   void move_to(const SensorPose& pose);

@@ -12,9 +12,9 @@
 
 namespace tern {
 
-/// Fewer pixels are no object.
+/// A cluster of fewer pixels is ignored.
 inline constexpr int kLeastPixels = 6;
-/// A cluster is peeled at most this often.
+/// A cluster is split at most this often (step 4 of Detector).
 inline constexpr int kMostPeelings = 4;
 /// Points nearer than this to known surroundings count as theirs, m: the height of what lies on a floor.
 inline constexpr double kSurroundingsMargin = 0.1;
@@ -31,11 +31,12 @@ struct KnownSurroundings {
 /// 1. Points within kSurroundingsMargin + 3σ of the ground or of a known box are removed.
 /// 2. Neighbouring pixels whose depths continue each other are one cluster (clusters.h).
 /// 3. A corner, up to three faces that meet, is fitted to the depths of a cluster (corner_fit.h).
-/// 4. Rays that do not fit are peeled off, if they are at least max(6, 8 %). They are clustered alone, from step 2 on.
+/// 4. Rays that do not fit are split off, if they are at least kLeastPixels and 8 % of the cluster. They run through
+///    steps 2 to 5 by themselves.
 /// 5. Bounds come from the faces, and their flags from the pixels around the cluster (bounds.h).
 ///
-/// Objects are taken to be axis-aligned boxes. A cluster to which no face fits gives the box of its points, with every
-/// bound Occluded or worse.
+/// Objects are taken to be axis-aligned boxes. A cluster to which no face fits becomes the box of its points, with
+/// every bound Occluded.
 class Detector {
  public:
   Detector();
@@ -43,7 +44,8 @@ class Detector {
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;
 
-  /// Returns the sightings of a picture: by their first pixel, peeled ones last. Valid until the next call.
+  /// Returns the sightings of a picture in the order of their first pixels; those split off in step 4 come last. Valid
+  /// until the next call.
   const std::vector<Sighting>& detect(const DepthPicture& picture, const KnownSurroundings& surroundings);
 
  private:
@@ -51,8 +53,8 @@ class Detector {
   std::unique_ptr<Workspace> work_;
 };
 
-/// Makes the frame of a picture: its sightings, the ones with the most pixels first if there are more than
-/// kMaxSightings, and its view (view.h). The header is empty.
+/// Makes the frame of a picture: its sightings and its view (view.h). Of more than kMaxSightings, those with the most
+/// points are kept; left_out counts the others. The header is empty.
 SightingSet frame_of(const DepthPicture& picture, const std::vector<Sighting>& sightings, UTime at, int sensor_id);
 
 }  // namespace tern

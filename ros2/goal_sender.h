@@ -9,9 +9,9 @@
 
 namespace tern::ros2 {
 
-/// A goal is sent at once, but two goals are kSpacing apart. It is repeated at 1 Hz until another process, the
-/// executor, repeats it. A position that is asked for again is the same goal. A goal of another sender with a larger id
-/// ends it.
+/// A goal is sent at once, but two goals are at least kSpacing apart. It is repeated at 1 Hz until another process, the
+/// executor, repeats it. Asking for the same position again makes no new goal. A goal of another sender with a larger
+/// id ends the repetition.
 class GoalSender {
  public:
   static constexpr Duration kSpacing{100'000}, kRepeat{1'000'000};

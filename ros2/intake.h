@@ -53,7 +53,7 @@ struct OdometryReading {
 };
 
 /// The pose is in header.frame_id, and the velocity in the axes of the child, which is the vehicle's body. A covariance
-/// with a negative or infinite number is unknown.
+/// with a negative or infinite number counts as unknown.
 Taken<OdometryReading> read(const ros::Odometry& odometry, const IntakeContext& context);
 
 /// Each oriented box becomes the box along W's axes that contains it. The variance is that of the first result, or

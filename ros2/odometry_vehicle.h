@@ -11,11 +11,11 @@
 
 namespace tern::ros2 {
 
-/// Turns odometry into states. Odometry has no acceleration: it is the slope of the velocities of the last kSlope, by
-/// least squares, and 0 until there are three.
+/// Turns odometry into states. Odometry has no acceleration. The acceleration of a state is the slope of the velocities
+/// of the last kSlope, by least squares, and 0 until there are three.
 ///
-/// ROS has no message that says whether a vehicle follows its setpoints. It follows while its odometry is at most
-/// kOldestOdometry old; if `asks` is true, it must also have been told so by std_msgs/Bool within kOldestWord.
+/// ROS has no message that says whether a vehicle follows its setpoints. Here it follows while its odometry is at most
+/// kOldestOdometry old. With `asks`, /following must also have said true within kOldestWord.
 class OdometryVehicle {
  public:
   static constexpr Duration kSlope{100'000}, kOldestWord{1'000'000};

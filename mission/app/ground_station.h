@@ -14,7 +14,7 @@
 namespace tern::mission {
 
 /// Serves the mission protocol (MissionServer). Sends HEARTBEAT and MISSION_CURRENT at 1 Hz, and MISSION_ITEM_REACHED.
-/// GLOBAL_POSITION_INT has 2 Hz if W has a place on the earth.
+/// If the scenario has world.origin, it sends GLOBAL_POSITION_INT at 2 Hz.
 class GroundStation {
  public:
   GroundStation(std::unique_ptr<mavlink::Link> link, std::uint8_t system, std::optional<LocalFrame> frame,
@@ -23,7 +23,7 @@ class GroundStation {
   /// Receives and answers what has come, and sends what is due.
   /// @param progress, state  null: none yet
   void step(UTime now, const Progress* progress, const UavState* state);
-  /// The link is looked at again then.
+  /// When step() is due next.
   [[nodiscard]] UTime next_wakeup() const { return next_look_; }
   void set_items(std::vector<mavlink::MissionItemInt> items) { server_.set_items(std::move(items)); }
 

@@ -36,7 +36,7 @@ struct MissionSetup {
 ///
 /// 1. It waits for a map, and refuses steps in occupied voxels. A file's mission then ends the process with
 ///    kExitCannotFly, before any goal is sent; an upload is refused.
-/// 2. It listens for kListen, since the vehicle repeats its goal at 1 Hz: after a restart the mission goes on.
+/// 2. It listens for kListen. The vehicle repeats its goal at 1 Hz, so after a restart the mission continues there.
 /// 3. Without a mission it sends a goal to hold, until one is uploaded and started.
 /// 4. It sends goals until the mission is done or has failed. HEARTBEAT then says Finished or Failed, and the last goal
 ///    is repeated until the process is ended.

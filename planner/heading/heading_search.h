@@ -17,7 +17,7 @@ struct HeadingStart {
 
 /// Returns what this yaw costs per second: Σ worth · min(1, (angle / half_view)²) over the targets.
 ///
-/// The cost rises from the centre of the view on, because prediction errors and turns make its edge a poor place.
+/// The cost rises from the centre of the view outwards: at its edge, a prediction error or a turn loses the target.
 /// @param half_view  half of the horizontal field of view, rad, > 0
 double unseen_cost(double yaw, const std::vector<LookTarget>& targets, double half_view);
 

@@ -11,7 +11,7 @@ namespace tern {
 /// A direction that is worth looking at.
 struct LookTarget {
   double bearing = 0.0;  ///< about W's z from W's x, rad
-  double worth = 0.0;    ///< cost per second while it is not seen, in the unit of its term per second, ≥ 0
+  double worth = 0.0;    ///< cost while it is not seen, in the unit of its term per second, ≥ 0
 };
 
 /// The vehicle at one instant of its plan.

@@ -14,9 +14,9 @@ double stop_time(double speed, const Limits& limits);
 /// Looks at the places where the vehicle will be within kSightAhead and the time to stop. Beyond the end of the
 /// trajectory that is the local goal.
 ///
-/// The term's unit is m: the length of path that is flown while the way ahead is not seen. A slow vehicle counts as one
-/// of kLeastPathSpeed, so that it looks where it will start to. Places nearer than kNearestPlace have no direction.
-/// By kPathWeight the path outweighs all tracks together.
+/// The term's unit is m: the length of path that is flown while the way ahead is not seen. A vehicle slower than
+/// kLeastPathSpeed is treated as if it flew at that speed, so that it looks where it will go. Places nearer than
+/// kNearestPlace have no direction. kPathWeight lets the path outweigh all tracks together.
 class PathTerm final : public LookTerm {
  public:
   /// @param trajectory  is kept by reference

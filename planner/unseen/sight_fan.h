@@ -8,7 +8,7 @@
 
 namespace tern {
 
-/// The free depth by direction: from the sensor to reach[k] nothing was seen in the k-th of equal sectors.
+/// The free depth by direction: the k-th of equal sectors was seen to be empty from the sensor to reach[k].
 struct SightFan {
   Eigen::Vector2d eye = Eigen::Vector2d::Zero();  ///< position of the sensor, W, m
   double first = 0.0;                             ///< azimuth of the first sector's start, about W's z from W's x, rad

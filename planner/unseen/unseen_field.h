@@ -35,10 +35,10 @@ struct UnseenGrid {
 /// Both values in step 4 are lower bounds, so their maximum is. Time alone never raises D. O(cells).
 class UnseenField {
  public:
-  /// Before the first picture nobody is known to be absent anywhere: D = 0.
+  /// Before the first picture an unseen mover may be anywhere: D = 0.
   UnseenField(const UnseenGrid& grid, double max_speed, double least_width);
 
-  /// Nobody is within this ball now, as at take-off.
+  /// States that no mover is within this ball at present, as at take-off.
   void clear_ball(const Eigen::Vector2d& centre, double radius);
   /// Steps 1 to 4 for pictures that were taken together, Δt seconds after the last ones.
   /// @param filled  cells that something known fills entirely, nx·ny flags, row by row; empty: none
@@ -68,13 +68,13 @@ class UnseenField {
   std::vector<double> rows_;
 };
 
-/// Returns how long no unseen mover can touch the vehicle on this trajectory, s after `from`. It is the time until the
-/// vehicle rests if
+/// Returns the time, s after `from`, up to which no unseen mover can touch the vehicle on this trajectory. It is the
+/// first time s at which this condition fails, or else the time at which the vehicle comes to rest:
 ///
-///     distance(p(s)) − w (s + latency) > radius      for all s until then.
+///     distance(p(s)) − w (s + latency) > radius
 ///
-/// A contact with a vehicle at rest is the mover's. The condition is tested at steps of `step_s` with the margin
-/// (v + w) step_s / 2, v being the speed there.
+/// A mover that touches a vehicle at rest is not the planner's concern. The condition is tested at steps of `step_s`,
+/// with the margin (v + w) step_s / 2, where v is the speed there.
 /// @param radius  of the body about its vertical axis, m
 double clear_until(const TimedSpline& trajectory, UTime from, const UnseenField& field, double latency_s, double radius,
                    double step_s = 0.01);

@@ -38,18 +38,16 @@ inline constexpr Duration kMaxAge{10'000'000};
 /// - From the first input on, it publishes a complete set of PREDICTIONS each period. An empty world is an empty set.
 /// - made_at is the time of the newest input that the model uses: made_at of a declared set, or the time of an
 ///   observation set. When all inputs stop, made_at stays and α of estimated tracks grows, so the planner sees the age.
-/// - A sensor sends detections (OBSTACLE_OBSERVATIONS) or sightings (OBSTACLE_SIGHTINGS). All rules for observation
-/// sets
-///   hold for both; below, both are frames.
+/// - A sensor sends detections (OBSTACLE_OBSERVATIONS) or sightings (OBSTACLE_SIGHTINGS). Below, a message of either
+///   kind is an observation set.
 /// - Observation sets are counted as late and not used if they are too old, repeated, or sent by a second process. The
 ///   bus rejects sets with a time in the future.
 /// - Observation sets wait until step(). One that waited longer than kMaxWait is skipped if a newer one of its sensor
 ///   waits, and counted as late. step() takes kMaxWorkPerStep and one set at most, so that heartbeats and signals wait
 ///   no longer, however many sets have arrived.
 /// - A track or message that every receiver would refuse is not sent but counted, and HEARTBEAT names its field.
-/// - With ODOMETRY, declared tracks get the margin of things known in W (models/world_error.h). Estimated tracks do
-/// not:
-///   the vehicle sees them relative to itself.
+/// - With ODOMETRY, declared tracks get a margin for the error of the vehicle's pose in W (models/world_error.h).
+///   Estimated tracks get none, because the vehicle sees them relative to itself.
 /// - TRACK_BOUNDS, the reason for each estimated track's width, is published with the first set of each kBoundsPeriod.
 ///
 /// | HEARTBEAT            | while                                                                           |

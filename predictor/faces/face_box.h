@@ -9,7 +9,8 @@
 
 namespace tern {
 
-/// Two measured bounds of one axis agree if they do to this and three standard deviations, m: a pixel at 10 m.
+/// Two measurements of one length agree if they differ by at most this plus three standard deviations, m: a pixel at
+/// 10 m.
 inline constexpr double kSizeTolerance = 0.15;
 /// A known size follows measured ones by at least this share of the difference. If a measured size is larger and
 /// disagrees, it is taken at once.
@@ -18,10 +19,10 @@ inline constexpr double kSizeFollows = 0.05;
 /// True for a bound that is a measured end of the obstacle.
 constexpr bool is_end(BoundSight sight) { return sight == BoundSight::Face || sight == BoundSight::Whole; }
 
-/// A sliver is a sighting of fewer points than this, some of them beside a cut or hidden part. On so few points all
-/// faces look alike, so its bounds are taken as hidden.
+/// A sliver is a sighting of fewer points than this that has a cut or hidden bound. So few points fit any face, so none
+/// of its bounds is trusted as an end.
 inline constexpr int kSliverPoints = 16;
-/// Returns the sighting; that of a sliver without ends.
+/// Returns the sighting. The ends of a sliver are marked as hidden.
 Sighting without_false_ends(Sighting sighting);
 
 /// One face of a box: its distance outwards from the anchor.
@@ -43,9 +44,8 @@ struct AnchorMeasurement {
 /// keeps the distances of the six faces from it.
 ///
 /// - A measured end of a face with a known reach measures the anchor: bound − reach for the upper face.
-/// - A reach changes by measured *sizes* alone, where both ends of an axis are seen. So errors of the filter stay out
-/// of
-///   the extent, and changes of the visible part stay out of the velocity.
+/// - A reach changes only by measured *sizes*, where both ends of an axis are seen. So the extent is free of errors of
+///   the filter, and the velocity is free of changes of the visible part.
 /// - A face that was never measured lies at least as far out as the obstacle was seen. completed() puts it where the
 ///   other axes suggest.
 class FaceBox {
@@ -54,7 +54,8 @@ class FaceBox {
   /// @param anchor  receives the middle of the visible part
   FaceBox(const Sighting& sighting, Vec3& anchor);
 
-  /// Returns the largest distance of a measured end from its known face, or of another bound beyond it, m.
+  /// Returns the misfit between the sighting and the known faces, m. It is the largest distance of a measured end from
+  /// its face, or of any other bound that lies outside its face.
   /// @param unknown  the least result if no end can be compared, m
   [[nodiscard]] double mismatch(const Vec3& anchor, const Sighting& sighting, double unknown) const;
   /// Returns the anchor by the measured ends whose reach is known. Where the two ends of an axis disagree with the

@@ -12,7 +12,7 @@ namespace tern {
 /// A sighting belongs to a track only if its worst bound differs by less than this, m, and by three standard deviations
 /// of the prediction.
 inline constexpr double kFaceGate = 0.6, kFaceGateSigmas = 3.0;
-/// The largest gate, m: two vehicle lengths farther on, another obstacle is as likely.
+/// The largest gate, m. Farther away, the sighting may as well show another obstacle.
 inline constexpr double kMaxFaceGate = 2.0;
 /// The cost, as a share of the gate, of a pair without a bound that can be compared.
 inline constexpr double kNothingCompared = 0.5;

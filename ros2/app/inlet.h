@@ -24,14 +24,14 @@ namespace tern::ros2 {
 /// How received messages are read.
 struct InletOptions {
   double detection_sigma_m = 0.1, detection_range_m = 0.0, cloud_range_m = 0.0;  ///< see IntakeContext
-  bool keep_height = false;  ///< a goal's height is that of the vehicle: RViz's button sends 0
+  bool keep_height = false;  ///< a goal gets the vehicle's height: RViz's button sends 0
 };
 
 /// Reads the topics that were asked for. A message that waits for a transform is tried again for kPatience. A refused
 /// message changes nothing; it is counted, and reported with its reason.
 ///
-/// With /odom it is the vehicle: it publishes UAV_STATE and VEHICLE_STATUS, unless another process publishes the
-/// latter. Goals outside the flight box are refused.
+/// With /odom it takes the vehicle's place: it publishes UAV_STATE and VEHICLE_STATUS, unless another process publishes
+/// VEHICLE_STATUS. Goals outside the flight box are refused.
 class Inlet {
  public:
   static constexpr Duration kPatience{200'000};

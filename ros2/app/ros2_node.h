@@ -28,7 +28,7 @@ struct Ros2Options {
 int domain_of(const std::string& text);
 
 /// Passes messages between the bus and ROS. It never waits for ROS, and no message of ROS ends it. A topic is either
-/// received or sent, so messages make no circle. With /odom, /tf is received only.
+/// received or sent, so no message returns to where it came from. With /odom, /tf is received only.
 class Ros2Node final : public Node {
  public:
   /// @throws ConfigError for an unknown topic or a name that ROS forbids, or if DDS fails to start

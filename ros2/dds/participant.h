@@ -29,8 +29,8 @@ struct EndCounters {
   std::int64_t unfitting = 0;  ///< ends of others whose quality of service does not fit
 };
 
-/// A participant with its readers and writers. Nothing waits: others may be slow, flood or lie. All calls come from one
-/// thread; Cyclone has threads of its own.
+/// A participant with its readers and writers. No call waits for another participant, whether that is slow, floods the
+/// network or sends malformed data. All calls come from one thread; Cyclone has threads of its own.
 class Participant {
  public:
   /// @param domain  0 … 232

@@ -23,18 +23,18 @@ struct MapRemark {
 /// * unclassified points among classified ones;
 /// * no point in or near the flight box.
 ///
-/// A cloud beside the flight box, as trees above it, is used if extents are given that overlap the box and hold points.
-/// Without such extents the cloud is most likely in another frame, and the vehicle would fly through a free map.
+/// A cloud outside the flight box, such as trees above it, is used if the given extents overlap the box and contain
+/// points. Without such extents it is refused: most likely it is in another frame, and the map would be free.
 /// @param classes  meanings as configured, with semantics enabled
 /// @throws ConfigError if no point can mark a voxel. The error names the counts per class and the file's properties.
-///   Either no class has a meaning, all points lie outside the extents, or they lie beside the flight box without such
+///   Either no class has a meaning, all points lie outside the extents, or they lie outside the flight box without such
 ///   extents.
 std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& cloud, const ClassMeanings& classes,
                                     const MapperConfig& config, const Box& flight_box);
 
 /// Returns one line on the leaves of an OctoMap, and one if the map's voxels are coarser than the OctoMap's.
-/// An OctoMap beside the flight box is used, with a warning, as a cloud is.
-/// @throws ConfigError if no leaf lies inside the extents, or all lie beside the flight box without such extents
+/// An OctoMap outside the flight box is used or refused as a cloud is.
+/// @throws ConfigError if no leaf lies inside the extents, or all lie outside the flight box without such extents
 std::vector<MapRemark> report_octomap(const CloudSource& source, const OctoMapFile& octomap, const MapperConfig& config,
                                       const Box& flight_box);
 

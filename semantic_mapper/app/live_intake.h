@@ -47,10 +47,10 @@ class LiveIntake {
 
 /// A scan is complete this long after its last message.
 inline constexpr Duration kScanParts{50'000};
-/// The largest number of sensors of which scans are collected; of further ones, each message is a scan.
+/// Messages are joined to scans for at most this many sensors. Each message of a further sensor is a scan by itself.
 inline constexpr std::size_t kMaxSensors = 16;
-/// A scan is complete with this many points, a depth image of 1280 × 800; and a step adds no more, but at least one
-/// scan.
+/// A scan has at most this many points, those of a depth image of 1280 × 800; further messages begin a new one. One
+/// step adds at least one scan, and further ones while they have no more points than this together.
 inline constexpr std::size_t kMaxScanPoints = 1'024'000;
 
 }  // namespace tern

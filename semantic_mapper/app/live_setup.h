@@ -1,4 +1,4 @@
-// The inputs of a live map beside the map of the files.
+// The inputs of a live map, apart from the map of the files.
 #pragma once
 
 #include <optional>

@@ -13,17 +13,17 @@ namespace tern {
 
 /// Reads the fences of a file, in latitude and longitude. Without fences the result is empty.
 ///
-/// | name ends in | fences |
-/// |---|---|
-/// | .plan | polygons and circles of `geoFence` (QGroundControl, "Plan File Format"); no floor, no ceiling |
-/// | .geojson, .json | features with the property `fence`: inclusion or exclusion. A Polygon without holes, or a Point
-/// with `radius_m`; `floor`, `ceiling` (m above the origin) and `name` |
+/// | name ends in    | fences                                                                                        |
+/// |-----------------|-----------------------------------------------------------------------------------------------|
+/// | .plan           | polygons and circles of `geoFence` (QGroundControl, "Plan File Format"), unbounded in height   |
+/// | .geojson, .json | features whose property `fence` is inclusion or exclusion                                     |
 ///
-/// Files may be hostile. An Error names `file`, the fence, value and limit.
+/// A feature is a Polygon without holes, or a Point with `radius_m`. It may have `floor`, `ceiling` (m above the
+/// origin) and `name`. Files may be hostile. An Error names `file`, the fence, value and limit.
 Result<std::vector<Fence>> parse_fences(std::string_view text, const std::string& file);
 
-/// Returns the fence in W. Corners and centre lie at the origin's height. An Error for a place that is none on the
-/// earth. @pre fence.is_geodetic
+/// Returns the fence in W. Corners and centre lie at the origin's height. @return an Error for coordinates that do not
+/// exist on the earth. @pre fence.is_geodetic
 Result<Fence> to_world(Fence fence, const LocalFrame& frame);
 
 /// The largest file, bytes, and the most fences and corners.

@@ -21,7 +21,7 @@ std::uint8_t strength_of(VoxelLabel label);
 /// @throws std::length_error if there would be more than kMaxMapClasses
 std::uint8_t index_of_class(const std::string& name, std::vector<std::string>& names);
 
-/// A map in the making.
+/// Builds a map voxel by voxel.
 class VoxelPainter {
  public:
   VoxelPainter(const VoxelGrid& grid, VoxelLabel background);

@@ -18,8 +18,8 @@ namespace tern {
 /// Publishes OBSTACLE_SIGHTINGS of cameras and lidars, and OBSTACLE_OBSERVATIONS of the sensors `near` and `truth`.
 /// Each sensor has its own rate and latency; its id is its place in the list.
 ///
-/// Frames are numbered from the process's start, and from world zero on as soon as that is known, so earlier frames
-/// then have negative numbers.
+/// Frames are numbered from the start of the process. As soon as world zero is known, they are numbered from there, and
+/// earlier frames have negative numbers.
 class SensorBroadcast {
  public:
   SensorBroadcast(Bus& bus, const SimulatorConfig& config, UTime now);
@@ -28,8 +28,8 @@ class SensorBroadcast {
   /// The occupied voxels of the map, as boxes (W): they are seen, and known.
   void set_map(std::vector<Box> boxes) { map_ = std::move(boxes); }
   [[nodiscard]] UTime next_wakeup() const;
-  /// Publishes all frames that are due. Each is taken from the vehicle's true pose at the frame's time. Its content is
-  /// where the vehicle believes it to be.
+  /// Publishes all frames that are due. A frame is rendered from the vehicle's true pose at the frame's time. It is
+  /// published relative to the believed pose (Navigation), since the vehicle knows no other.
   /// @param world_at  returns the world that exists at a time (WorldBroadcast::world_at)
   template <class WorldAt>
   void step(UTime now, Vehicle& vehicle, WorldAt&& world_at) {

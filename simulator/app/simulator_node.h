@@ -41,8 +41,8 @@ inline constexpr int kExitNotReady = 3;  ///< a required process was not ready i
 /// Ended: FLIGHT_RESULT is repeated for a second while the vehicle comes to rest. Then the exit code is 0, for every
 /// verdict.
 ///
-/// A vehicle that estimates its own pose may hover beside its goal and believe to be there. After 2 s of that the
-/// flight ends as a timeout, and its detail has the true distance.
+/// A vehicle that estimates its own pose may believe that it is at the goal while it hovers elsewhere. After 2 s of
+/// that the flight ends as a timeout, and its detail has the true distance.
 ///
 /// The referee judges the vehicle's true motion (VEHICLE_TRUTH). UAV_STATE is the estimator's output. The goal is the
 /// scenario's, with id 1, unless config.send_goal is false. A GOAL with a larger id replaces it. It is repeated at 1

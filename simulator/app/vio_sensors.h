@@ -14,8 +14,8 @@
 
 namespace tern {
 
-/// Publishes IMU and FEATURE_TRACKS of a vehicle, and gives its navigation every ODOMETRY. The camera looks at the true
-/// world from the true pose. Until world zero the world rests.
+/// Publishes IMU and FEATURE_TRACKS of a vehicle, and passes every ODOMETRY to its navigation. The camera sees the true
+/// world from the true pose. Until world zero the world is at rest.
 class VioSensors {
  public:
   /// `world` and `navigation` must outlive this.

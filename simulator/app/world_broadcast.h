@@ -28,8 +28,8 @@ World world_of(const Scenario& scenario);
 /// @throws ConfigError as above, for too many obstacles at once, or for one that is too fast for the message.
 World flyable_world_of(const Scenario& scenario, const SimulatorConfig& config);
 
-/// Moves a frame from the world as it is to the world as it is believed to be. Boxes keep their axes: the yaw of a
-/// belief is off by less than a degree.
+/// Moves a frame from the true world to the believed one. Boxes keep their axes, because the believed yaw is off by
+/// less than a degree.
 void move_to(ObservationSet& set, const Belief& belief);
 
 /// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, OBSTACLE_TRUTH at 30 Hz, and DECLARED_MOTIONS at 5
@@ -48,8 +48,8 @@ class WorldBroadcast {
 
   void start(UTime world_zero, UTime now);
   [[nodiscard]] UTime next_wakeup() const;
-  /// Publishes all due messages. The sensor is at the vehicle's true position at the time of each frame. It measures
-  /// relative to the vehicle, so its frames are about the world as `navigation` believes it to be; nullptr: as it is.
+  /// Publishes all due messages. The sensor is at the vehicle's true position at the time of each frame. Frames are
+  /// published relative to the pose that `navigation` believes; nullptr: the true pose.
   void step(UTime now, const MotionHistory& uav, const Navigation* navigation = nullptr);
   /// The world that exists at a time, by the table above.
   [[nodiscard]] const World& world_at(UTime t) const { return is_before_world(t) ? before_ : world_; }

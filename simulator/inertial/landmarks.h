@@ -48,16 +48,19 @@ struct Landmark {
 
 /// The landmarks of a world: a Poisson process on its surfaces, a pure function of world, regions, spec and seed.
 ///
-/// | surface                                                      | landmarks per m² (or rad)                        |
-/// |--------------------------------------------------------------|--------------------------------------------------|
-/// | the plane z = ground_z_m                                     | ground; below a region, that of the region's class
-/// | | upright sides of a box or prism region denser than the ground | the class's; seen from both sides, hides nothing
-/// | | the six faces of an obstacle                                 | obstacles, or movers if it ever moves | | the
-/// horizon, within 0.05 rad above and below the eye's height | horizon                                         |
+/// | surface                                | landmarks per m²; on the horizon per rad                   |
+/// |----------------------------------------|------------------------------------------------------------|
+/// | the plane z = ground_z_m               | `ground`; below a region, the density of the region's class |
+/// | upright sides of a box or prism region | the density of its class                                   |
+/// | the six faces of an obstacle           | `obstacles`, or `movers` if it ever moves                  |
+/// | the horizon                            | `horizon`, within 0.05 rad of the eye's height             |
 ///
-/// Of several regions over one point of the ground the first one counts. The ground is drawn in square cells, each from
-/// a seed of its own. A cell is drawn at the largest density, and thinned to the density of each place. So a cell looks
-/// the same from everywhere, and only cells that are looked at are drawn.
+/// The sides of a region have landmarks only if its class is denser than the ground. They are seen from both sides, and
+/// hide nothing. Where several regions lie over one point of the ground, the first one decides its density.
+///
+/// The ground consists of square cells. Each is drawn from a seed of its own at the largest density, then thinned to
+/// the density of each place. A cell has therefore the same landmarks from every viewpoint, and only cells in view are
+/// drawn.
 class LandmarkField {
  public:
   static constexpr double kCell = 4.0;         ///< side of a cell of ground, m

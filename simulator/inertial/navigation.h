@@ -30,18 +30,20 @@ struct Belief {
   [[nodiscard]] Vec3 of(const Vec3& p_true) const { return R * p_true + p; }
 };
 
-/// Measures samples of kImuStep from the true motion, and believes what ODOMETRY and these samples say.
+/// Measures IMU samples of kImuStep from the true motion, and derives from them and from ODOMETRY where the vehicle
+/// believes itself to be.
 ///
-/// | quantity                 | is |
-/// |--------------------------|-----------------------------------------------------------------------------------------|
-/// | pose in O                | of the newest ODOMETRY, moved by all later samples without the biases it reports | |
-/// believed pose            | T·(pose in O); T follows T_WO so that it moves the vehicle by at most kCorrectionSpeed |
+/// | quantity      | definition                                                                                    |
+/// |---------------|-----------------------------------------------------------------------------------------------|
+/// | pose in O     | the newest ODOMETRY, moved by all later samples; the biases that it reports are subtracted     |
+/// | believed pose | T·(pose in O). T follows T_WO; it moves the vehicle at kCorrectionSpeed at most               |
 ///
-/// So the believed pose never steps, whatever T_WO does: the controller and the committed trajectory see a drift. The
-/// part of a correction that is still to come is outstanding().
+/// The believed pose never jumps, even if T_WO does: the controller and the committed trajectory see a slow drift.
+/// outstanding() is the part of a correction that is still to come.
 ///
-/// Usable means: ODOMETRY reports Tracking or Blind, is at most kMaxAge old, and no direction of the position has a
-/// standard deviation above the bound. Deterministic from the seed and the inputs.
+/// The estimate is usable if ODOMETRY reports Tracking or Blind, and is at most kMaxAge old. The largest standard
+/// deviation of the position over all directions must not exceed max_sigma_m. Deterministic from the seed and the
+/// inputs.
 class Navigation {
  public:
   static constexpr Duration kImuStep{5'000};

@@ -41,9 +41,9 @@ struct SimulatedTrack {
 
 /// Follows landmarks from frame to frame.
 ///
-/// 1. A track ends if its landmark is not seen (CameraFrame), and each other one with probability `lost`.
+/// 1. A track ends if its landmark is not seen (CameraFrame). Each other track ends with probability `lost`.
 /// 2. A track slips with probability `wrong`: from then on it is a constant number of pixels off.
-/// 3. New tracks begin in empty cells, on the landmarks with the least hash, until there are `at_most`.
+/// 3. New tracks begin in image cells without a track, on the landmarks with the least hash, up to `at_most` tracks.
 /// 4. Each of the four coordinates is measured with normal noise.
 ///
 /// A landmark that is seen again gets a new id. Deterministic from the seed and the frames.
