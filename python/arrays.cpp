@@ -24,7 +24,7 @@ py::array numbers_of(const py::handle& value, const char* name) {
   const py::array array = py::array::ensure(value);
   if (!array) {
     PyErr_Clear();
-    throw py::value_error(fmt::format("{}: is no array of numbers", name));
+    throw py::value_error(fmt::format("{}: is not an array of numbers", name));
   }
   const char kind = array.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u') {

@@ -118,7 +118,7 @@ std::vector<T> voxels_of(const py::object& value, const char* name, const std::v
   const py::array array = py::array::ensure(value);
   if (!array || array.ndim() != 3 || (array.dtype().kind() != 'u' && array.dtype().kind() != 'i')) {
     PyErr_Clear();
-    throw py::value_error(fmt::format("{}: is no integer array of the shape (x, y, z)", name));
+    throw py::value_error(fmt::format("{}: is not an integer array of the shape (x, y, z)", name));
   }
   if (shape != nullptr && !std::equal(shape->begin(), shape->end(), array.shape())) {
     throw py::value_error(fmt::format("{}: has another shape than labels", name));

@@ -37,7 +37,7 @@ MissionNode::MissionNode(Bus& bus, MissionSetup setup)
   is_ordered_ = setup_.mission.has_value();
   if (!setup_.mission) {
     if (auto steps = record_.read_upload()) {
-      log::info("goes on with the mission that was uploaded before");
+      log::info("continues the mission that was uploaded before the restart");
       setup_.mission = Mission{kUploaded, std::move(*steps)};
       is_ordered_ = true;
     }
@@ -118,7 +118,7 @@ std::string MissionNode::obey(Order order) {
   if (!progress_) return "there is no mission: upload one";
   switch (order) {
     case Order::Start:
-      if (has_started_) return "the mission was started before";
+      if (has_started_) return "the mission has already been started";
       is_ordered_ = true;
       return "";
     case Order::Pause: return has_started_ && progress_->pause(now) ? "" : "the mission is not being flown";
@@ -178,7 +178,7 @@ void MissionNode::note() {
 NodeHealth MissionNode::health() const {
   if (!map_) return {ProcessState::Waiting, "a semantic map"};
   if (!state_) return {ProcessState::Waiting, "UAV_STATE"};
-  if (!progress_) return {ProcessState::Ready, "waits for a mission of the ground station"};
+  if (!progress_) return {ProcessState::Ready, "waits for the ground station to upload a mission"};
   if (!is_ordered_) return {ProcessState::Ready, "waits for the ground station to start the mission"};
   if (!has_started_) return {ProcessState::Waiting, "the vehicle's goal, if an earlier process sent one"};
   switch (progress_->stand()) {

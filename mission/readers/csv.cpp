@@ -86,7 +86,7 @@ class Columns {
     const auto track = number(cells, "track");
     if (!track) return tl::unexpected(track.error());
     if (*track) {
-      if (std::abs(**track) > kMaxTrack || **track != std::floor(**track)) return fail("track is no whole number");
+      if (std::abs(**track) > kMaxTrack || **track != std::floor(**track)) return fail("track is not a whole number");
       entry.track = static_cast<std::int64_t>(**track);
     }
     const auto place = this->place(cells, entry.action == "follow", site);

@@ -12,7 +12,8 @@ using Json = nlohmann::json;
 Result<std::optional<double>> number(const Json& properties, const char* name) {
   const Json& json = member(properties, name);
   if (json.is_null()) return std::optional<double>();
-  if (!json.is_number() || !std::isfinite(json.get<double>())) return fail(fmt::format("{} is no finite number", name));
+  if (!json.is_number() || !std::isfinite(json.get<double>()))
+    return fail(fmt::format("{} is not a finite number", name));
   return std::optional(json.get<double>());
 }
 
@@ -27,9 +28,9 @@ std::string speed_among(const Json& properties) {
 
 /// [longitude, latitude, height]
 Result<Vec3> place(const Json& json, const Site& site) {
-  if (!json.is_array() || json.size() != 3) return fail("a position is no list of longitude, latitude and height");
+  if (!json.is_array() || json.size() != 3) return fail("a position is not a list of longitude, latitude and height");
   for (const Json& value : json) {
-    if (!value.is_number() || !std::isfinite(value.get<double>())) return fail("a coordinate is no finite number");
+    if (!value.is_number() || !std::isfinite(value.get<double>())) return fail("a coordinate is not a finite number");
   }
   return place_of(true, json[1].get<double>(), json[0].get<double>(), json[2].get<double>(), site);
 }
@@ -61,7 +62,7 @@ Result<void> add_feature(const Json& feature, int& item, const Site& site, StepL
   if (!is_line && type != "Point") {
     return fail(fmt::format("geometry \"{}\" cannot be flown; a fence needs the property \"fence\"", type));
   }
-  if (is_line && !coordinates.is_array()) return fail("coordinates are no list");
+  if (is_line && !coordinates.is_array()) return fail("coordinates are not a list");
   const std::size_t count = is_line ? coordinates.size() : 1;
   for (std::size_t k = 0; k < count; ++k) {
     auto entry = entry_of(properties, ++item);

@@ -10,10 +10,10 @@ using Json = nlohmann::json;
 
 /// Returns a whole number in [0, 65535], or an Error with its name.
 Result<int> whole(const Json& json, const std::string& name) {
-  if (!json.is_number()) return fail(fmt::format("{} is missing or no number", name));
+  if (!json.is_number()) return fail(fmt::format("{} is missing or not a number", name));
   const double value = json.get<double>();
   if (!(value >= 0.0 && value <= 65'535.0) || value != std::floor(value)) {
-    return fail(fmt::format("{} = {} is no whole number from 0 to 65535", name, value));
+    return fail(fmt::format("{} = {} is not a whole number from 0 to 65535", name, value));
   }
   return static_cast<int>(value);
 }
@@ -43,7 +43,7 @@ Result<Item> read_item(const Json& json, int place) {
     item.goes_on = goes_on.get<bool>();
   }
   const Json& params = member(json, "params");
-  if (!params.is_array() || params.size() != 7) return fail(at + ".params is no list of 7 numbers");
+  if (!params.is_array() || params.size() != 7) return fail(at + ".params is not a list of 7 numbers");
   double* const values[] = {&item.params[0], &item.params[1], &item.params[2], &item.params[3],
                             &item.x,         &item.y,         &item.z};
   for (std::size_t k = 0; k < 7; ++k) {

@@ -20,9 +20,10 @@ std::optional<double> finite(const Json& json) {
 
 /// Reads two coordinates; with `is_reversed` the longitude comes first, as in GeoJSON.
 Result<Place> read_place(const Json& json, bool is_reversed) {
-  if (!json.is_array() || json.size() < 2 || json.size() > 3) return fail("a place is no list of two coordinates");
+  if (!json.is_array() || json.size() < 2 || json.size() > 3)
+    return fail("a place is not a list of two or three numbers");
   const auto first = finite(json[0]), second = finite(json[1]);
-  if (!first || !second) return fail("a coordinate is no finite number");
+  if (!first || !second) return fail("a coordinate is not a finite number");
   const Place place = is_reversed ? Place(*second, *first) : Place(*first, *second);
   if (const std::string why = why_not_on_earth({place.x(), place.y(), 0.0}); !why.empty()) return fail(why);
   return place;
@@ -46,7 +47,7 @@ Result<FenceCircle> read_circle(const Json& centre, const Json& radius, bool is_
   if (!place) return tl::unexpected(place.error());
   const auto metres = finite(radius);
   if (!metres || !(*metres > 0.0 && *metres <= kMaxFenceRadius)) {
-    return fail(fmt::format("its radius is no number in (0, {}] m", kMaxFenceRadius));
+    return fail(fmt::format("its radius is not a number in (0, {}] m", kMaxFenceRadius));
   }
   return FenceCircle{*place, *metres};
 }
@@ -76,7 +77,7 @@ Result<std::vector<Fence>> parse_plan_fences(const Json& json) {
   for (const char* kind : {"polygons", "circles"}) {
     const Json& list = member(all, kind);
     if (list.is_null()) continue;
-    if (!list.is_array()) return fail(fmt::format("geoFence.{} is no list", kind));
+    if (!list.is_array()) return fail(fmt::format("geoFence.{} is not a list", kind));
     for (std::size_t k = 0; k < list.size(); ++k) {
       auto fence = read_plan_fence(list[k], kind[0] == 'c');
       if (!fence) return fail(fmt::format("geoFence.{}[{}]: {}", kind, k, fence.error().message));
@@ -98,7 +99,7 @@ Result<Fence> read_feature(const Json& feature) {
     const Json& json = member(properties, name);
     if (json.is_null()) continue;
     const auto value = finite(json);
-    if (!value || std::abs(*value) > kMaxFenceRadius) return fail(fmt::format("{} is no height in m", name));
+    if (!value || std::abs(*value) > kMaxFenceRadius) return fail(fmt::format("{} is not a height in m", name));
     *level = *value;
   }
   if (!(fence.floor < fence.ceiling)) return fail("its floor is not below its ceiling");
@@ -106,7 +107,7 @@ Result<Fence> read_feature(const Json& feature) {
   const Json& coordinates = member(geometry, "coordinates");
   const std::string type = short_text(member(geometry, "type"));
   if (type == "Point") return with_shape(fence, read_circle(coordinates, member(properties, "radius_m"), true));
-  if (type != "Polygon") return fail(fmt::format("geometry \"{}\" is no fence; give a Polygon or a Point", type));
+  if (type != "Polygon") return fail(fmt::format("geometry \"{}\" cannot be a fence; give a Polygon or a Point", type));
   if (!coordinates.is_array() || coordinates.size() != 1) return fail("a polygon with holes cannot be used");
   auto polygon = read_polygon(coordinates[0], true);
   if (polygon && polygon->corners.size() > 3 && polygon->corners.front() == polygon->corners.back()) {

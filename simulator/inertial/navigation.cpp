@@ -136,7 +136,7 @@ double Navigation::position_sigma() const {
 }
 
 std::string Navigation::trouble() const {
-  if (!odometry_) return "no estimate yet: tern-estimator waits for a vehicle at rest, or is not there";
+  if (!odometry_) return "no estimate yet: tern-estimator waits for the vehicle to rest, or does not run";
   if (odometry_->state == EstimatorState::Lost) return "tern-estimator is lost";
   if (!is_valid()) return "tern-estimator has started anew";
   if (now_ - odometry_->at > kMaxAge) {

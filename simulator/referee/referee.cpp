@@ -53,8 +53,8 @@ std::vector<std::string> Referee::passing_the_start(double from_s) const {
 void Referee::advance(Duration start, const CubicPiece& piece) {
   if (start != now_ || piece.duration <= Duration{}) {
     throw std::invalid_argument(
-        fmt::format("referee: a piece from {} us for {} us, expected from {} us for more than 0", start.us,
-                    piece.duration.us, now_.us));
+        fmt::format("referee: a piece starts at {} us and lasts {} us; it must start at {} us and last longer than 0",
+                    start.us, piece.duration.us, now_.us));
   }
   if (!piece.coefficients.allFinite()) throw std::invalid_argument("referee: a piece that is not finite");
   if (outcome_) return;

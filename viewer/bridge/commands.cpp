@@ -107,9 +107,9 @@ PickCommand pick(const json& value) {
 
 Command player(const json& value) {
   only_members(value, {"play", "seek_us", "step", "speed"});
-  check(value.size() == 1, "one command at a time");
+  check(value.size() == 1, "a message must hold exactly one command");
   if (value.contains("play")) {
-    check(value["play"].is_boolean(), "play is true or false");
+    check(value["play"].is_boolean(), "play must be true or false");
     return PlayCommand{value["play"].get<bool>()};
   }
   if (value.contains("seek_us")) return SeekCommand{integer(value["seek_us"])};
@@ -138,7 +138,7 @@ GoalCommand goal(const json& value) {
 
 Command parse(const json& value) {
   only_members(value, {"layers", "series", "pick", "player", "goal"});
-  check(value.size() == 1, "one command at a time");
+  check(value.size() == 1, "a message must hold exactly one command");
   if (value.contains("layers")) return layers(value["layers"]);
   if (value.contains("series")) return series(value["series"]);
   if (value.contains("pick")) return pick(value["pick"]);

@@ -32,7 +32,7 @@ std::uint32_t id_of(const Json& value) {
 
 std::string text_of(const Json& object, const char* name) {
   const auto found = object.find(name);
-  if (found == object.end() || !found->is_string()) throw Refused{fmt::format("{} is missing or no text", name)};
+  if (found == object.end() || !found->is_string()) throw Refused{fmt::format("{} is missing or not a text", name)};
   return found->get<std::string>();
 }
 
@@ -44,7 +44,7 @@ const Json& member(const Json& object, const char* name) {
 
 const Json& list_of(const Json& object, const char* name, std::size_t most) {
   const Json& list = member(object, name);
-  if (!list.is_array()) throw Refused{fmt::format("{} is no list", name)};
+  if (!list.is_array()) throw Refused{fmt::format("{} is not a list", name)};
   if (list.size() > most) throw Refused{fmt::format("{} has more than {} entries", name, most)};
   return list;
 }
@@ -61,7 +61,7 @@ ClientText parsed(const Json& object) {
   if (operation == "subscribe") {
     Subscribe subscribe;
     for (const Json& entry : list_of(object, "subscriptions", kMaxSubscriptions)) {
-      if (!entry.is_object()) throw Refused{"a subscription is no object"};
+      if (!entry.is_object()) throw Refused{"a subscription is not an object"};
       subscribe.entries.push_back({id_of(member(entry, "id")), id_of(member(entry, "channelId"))});
     }
     return subscribe;
@@ -71,7 +71,7 @@ ClientText parsed(const Json& object) {
   if (operation != "advertise") return Unsupported{operation};
   ClientAdvertise advertise;
   for (const Json& entry : list_of(object, "channels", kMaxAdvertised)) {
-    if (!entry.is_object()) throw Refused{"a channel is no object"};
+    if (!entry.is_object()) throw Refused{"a channel is not an object"};
     advertise.entries.push_back({id_of(member(entry, "id")), text_of(entry, "topic"), text_of(entry, "encoding"),
                                  text_of(entry, "schemaName")});
   }
@@ -180,7 +180,7 @@ Result<Vec3> goal_position(const ClientAdvertise::Entry& channel, std::span<cons
   const auto read = channel.encoding == "cdr"    ? read_cdr(payload)
                     : channel.encoding == "json" ? read_json(payload)
                                                  : std::nullopt;
-  if (!read) return fail(fmt::format("the message is no {} in cdr or json", kPoseStamped));
+  if (!read) return fail(fmt::format("the message is not a {} in cdr or json", kPoseStamped));
   if (!read->frame.empty() && read->frame != frame) {
     return fail(fmt::format("the goal is in another frame than {}", frame));
   }
