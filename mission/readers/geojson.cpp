@@ -12,8 +12,9 @@ using Json = nlohmann::json;
 Result<std::optional<double>> number(const Json& properties, const char* name) {
   const Json& json = member(properties, name);
   if (json.is_null()) return std::optional<double>();
-  if (!json.is_number() || !std::isfinite(json.get<double>()))
+  if (!json.is_number() || !std::isfinite(json.get<double>())) {
     return fail(fmt::format("{} is not a finite number", name));
+  }
   return std::optional(json.get<double>());
 }
 

@@ -20,8 +20,9 @@ std::optional<double> finite(const Json& json) {
 
 /// Reads two coordinates; with `is_reversed` the longitude comes first, as in GeoJSON.
 Result<Place> read_place(const Json& json, bool is_reversed) {
-  if (!json.is_array() || json.size() < 2 || json.size() > 3)
+  if (!json.is_array() || json.size() < 2 || json.size() > 3) {
     return fail("a place is not a list of two or three numbers");
+  }
   const auto first = finite(json[0]), second = finite(json[1]);
   if (!first || !second) return fail("a coordinate is not a finite number");
   const Place place = is_reversed ? Place(*second, *first) : Place(*first, *second);
