@@ -283,7 +283,7 @@ void SimulatorNode::judge(UTime now) {
   if (vio_) judge_belief(now);
 }
 
-/// The referee has not seen the vehicle arrive. If it believes to have arrived, it will not come nearer.
+/// The referee has not seen the vehicle arrive. A vehicle that believes that it has arrived will not come nearer.
 void SimulatorNode::judge_belief(UTime now) {
   const MotionSample believed = vehicle_->estimate(now).motion;
   const bool is_there = goal_ && goal_->mode == GoalMode::Go &&
