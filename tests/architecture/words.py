@@ -158,6 +158,24 @@ def check_markdown(report, path, text):
     check_flow(report, path, flow, is_comment=False)
 
 
+def check_wrapping(report, path, lines):
+    """lines: (number, text) of a comment, None between comments. A formatter that wraps a long line breaks tables and lists."""
+    for item, wrapped, rest in zip(lines, lines[1:], lines[2:]):
+        if item and wrapped and rest and re.match(r"^([-*]|\d+\.) |^  +\S", item[1]) and rest[1].startswith("  "):
+            if re.match(r"^[^\s|*@\-\d]", wrapped[1]) and len(wrapped[1].split()) <= 2 and not wrapped[1].endswith(":"):
+                report.add(path, wrapped[0], "a list item lost its indentation", wrapped[1])
+    columns = 0  # of the table, from its second row |---|---|; 0: outside a table
+    for entry in lines:
+        body = entry[1].strip() if entry else ""
+        if re.match(r"^\|[-:| ]+\|$", body):
+            columns = body.count("|")
+        elif not body:
+            columns = 0
+        elif columns and (not body.startswith("|") or len(re.findall(r"(?<!\\)\|", body)) != columns):
+            report.add(path, entry[0], "a row does not fit its table", body)
+            columns = 0
+
+
 def check_header(report, path, text):
     flow = []
     for number, line in enumerate(text.splitlines(), 1):
@@ -172,6 +190,7 @@ def check_header(report, path, text):
         if code:
             flow.append(None)  # a trailing comment begins a text of its own
         flow.append((number, body if body.strip() else ""))
+    check_wrapping(report, path, flow)
     check_flow(report, path, flow, is_comment=True)
 
 

@@ -40,6 +40,12 @@ expect(rules(check_header, "/// What every plan says.\nint x;", "a.h"), "a free 
 expect(rules(check_header, "int x;  ///< what is committed", "a.h"), "a free relative", "a field's comment")
 expect(rules(check_header, "/// A track.\n/// @return what was found; what is lost is left out\nint f();", "a.h"),
        "a free relative", "@return")
+expect(rules(check_header, "/// | a | b |\n/// |---|---|\n/// | long\n/// row | b |\n", "a.h"), "a row does not fit", "a wrapped row")
+expect(rules(check_header, "/// | a | b |\n/// |---|---|\n/// | a | b | | c | d |\n", "a.h"), "a row does not fit", "two rows in one")
+expect(rules(check_header, "/// - A long\n/// item\n///   that was wrapped.\n", "a.h"), "lost its indentation", "a wrapped item")
+expect_none(rules(check_header, "/// - A long\n///   item.\n/// - Another.\n///\n///     a = b\n", "a.h"), "a list")
+expect_none(rules(check_header, "/// |x| is small.\n///\n/// | a | b |\n/// |---|---|\n/// | \\|j\\| | b |\n///\n/// A text.\n", "a.h"),
+            "a table")
 expect(rules(check_head, "#!/bin/sh\n# Whoever calls this waits.\n", "a.sh"), "a free relative", "a script's head")
 expect(rules(check_help, "  --pace P     what is slow is flown slower; who hurries waits", "launch_scripts/a.txt"), "a free relative",
        "an option's text")
