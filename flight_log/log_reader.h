@@ -15,10 +15,11 @@ namespace tern {
 
 /// The damage of a log.
 struct LogDamage {
-  std::int64_t places = 0;   ///< damaged places: runs of bytes outside events
-  std::int64_t bytes = 0;    ///< bytes at these places
-  std::int64_t missing = 0;  ///< events missing in the sequence of event numbers; a restart of the numbers is no gap
-  bool truncated = false;    ///< the file ends within an event
+  std::int64_t places = 0;  ///< damaged places: runs of bytes outside events
+  std::int64_t bytes = 0;   ///< bytes at these places
+  std::int64_t missing =
+      0;                   ///< events missing in the sequence of event numbers; a restart of the numbers does not count
+  bool truncated = false;  ///< the file ends within an event
 };
 
 /// Reads the events of one file in their order.

@@ -30,7 +30,7 @@ struct ChannelCount {
   std::int64_t lost = 0;     ///< by the senders' sequence numbers (MessageLosses); 0 on channels that are not Tern's
 };
 
-/// Counts messages. A sender's first message begins its count, so joining late is no loss.
+/// Counts messages. A sender's first message begins its count, so joining late does not count as loss.
 class ChannelTable {
  public:
   /// @param suffix  end of the vehicle's channel names, "" for none

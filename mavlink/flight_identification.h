@@ -35,7 +35,7 @@ class FlightIdentification {
   static constexpr std::size_t kLags = 20;
   static constexpr double kFirstLag = 0.04, kLagStep = 0.02;  ///< s
   static constexpr double kLeastMotion = 10.0;                ///< s, faster than 1 m/s
-  static constexpr double kMaxSigma = 0.1;                    ///< 1/s: a less certain drag is no answer
+  static constexpr double kMaxSigma = 0.1;                    ///< 1/s: a less certain drag is not reported
 
   /// Takes a setpoint as it is sent. @param a  with all feed-forward, m/s²
   void sent(const Vec3& p, const Vec3& v, const Vec3& a);

@@ -40,7 +40,7 @@ class StepList {
   [[nodiscard]] bool empty() const { return steps_.empty(); }
   /// The position of the last step, or home.
   [[nodiscard]] const Vec3& last() const;
-  /// Returns the steps; the last one is no Pass, since the vehicle ends at rest. An Error if there is none, or too
+  /// Returns the steps; the last one is never a Pass, since the vehicle ends at rest. An Error if there is none, or too
   /// many.
   [[nodiscard]] Result<std::vector<Step>> take();
 

@@ -58,7 +58,7 @@ Taken<OdometryReading> read(const ros::Odometry& odometry, const IntakeContext& 
 
 /// Each oriented box becomes the box along W's axes that contains it. The variance is that of the first result, or
 /// detection_sigma_m². An `id` of digits below 10⁹ is the track id; another text becomes a number of its own.
-/// @return a Refusal for the whole message if one detection is no box, or two have one id
+/// @return a Refusal for the whole message if one detection is not a box, or two have one id
 Taken<ObservationSet> read(const ros::Detection3DArray& array, const IntakeContext& context);
 
 /// The position of a goal. A stamp of 0 means now; its age does not matter.

@@ -19,7 +19,7 @@ namespace tern {
 ///  - a file that is no PLY, or whose header is longer than kMaxPlyHeader bytes;
 ///  - elements before the vertices, list properties in a vertex, unknown types, properties given twice;
 ///  - a property `label` that the file does not have: the error lists the properties;
-///  - more vertices than kMaxCloudPoints or than the file has, or text that is no number.
+///  - more vertices than kMaxCloudPoints or than the file has, or text instead of a number.
 ///
 /// O(bytes).
 Result<CloudFile> parse_ply(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame,

@@ -59,7 +59,7 @@ struct Unsupported {
 };
 using ClientText = std::variant<Subscribe, Unsubscribe, ClientAdvertise, ClientUnadvertise, Unsupported>;
 
-/// Parses a client's text. Lists beyond the limits, numbers that are no ids and other forms are refused. Never throws.
+/// Parses a client's text. Lists beyond the limits, numbers that are not ids and other forms are refused. Never throws.
 Result<ClientText> parse_client_text(std::string_view json);
 
 /// A message that a client published.
