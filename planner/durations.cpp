@@ -1,5 +1,6 @@
 #include "planner/durations.h"
 
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -23,10 +24,12 @@ PlanReason try_durations(const Surroundings& near, const Course& course, const T
   const PlannerConfig& config = near.config;
   const SearchConfig search =
       scaled(effort_of(trial.effort, config.search), course.local.radius, course.local.planned_s);
-  for (const double scale : config.duration_scales) {
+  for (int k = 0; k < static_cast<int>(std::ssize(config.duration_scales)); ++k) {
+    if (trial.duration && k != *trial.duration) continue;
     if (!tools.budget.begin_attempt(trial.phase) || is_long_enough(incumbent, course, near)) break;
     if (incumbent.best() && tools.budget.expired(Stage::LocalGoal)) break;
-    const std::optional<Duration> interval = interval_of(scale * course.local.planned_s, config.intervals);
+    const std::optional<Duration> interval =
+        interval_of(config.duration_scales[idx(k)] * course.local.planned_s, config.intervals);
     if (!interval) break;
     const double end_s = interval->seconds() * config.intervals;
     const Attempt attempt{near, course, horizon_problem(near, *interval), near.hold.cap(end_s),

@@ -1,6 +1,7 @@
 // The schedule of one request: what plan() tries, in which order. It is data. See docs/planner/choice.md.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/assurance.h"
@@ -28,15 +29,17 @@ enum class Task { Stay, Brake, Fly, Blocked };
 /// | Stop | the stop that stays clear longest                                       | find_evasion()           |
 enum class Aim { Room, Goal, Step, Stop };
 
-/// How long a search may be (effort_of).
-enum class Effort { Full, Reduced, OfStops };
+/// How long a search may be (effort_of). Thorough is that of Full until the first leaf, and that of Reduced from there
+/// on.
+enum class Effort { Full, Reduced, Thorough, OfStops };
 
 /// One row of the schedule.
 struct Trial {
   Aim aim = Aim::Goal;
   Effort effort = Effort::Full;
-  Phase phase = Phase::Durations;  ///< the budget that its attempts draw on
-  Assurance assurance = {};        ///< of its surroundings.
+  Phase phase = Phase::Durations;    ///< the budget that its attempts draw on
+  Assurance assurance = {};          ///< of its surroundings.
+  std::optional<int> duration = {};  ///< index of the only one that is tried; nullopt: all.
   /// A vehicle that may stay where it is flies at this assurance once it has been at rest for longer than this, s.
   double wait_s = 0.0;
   /// If the start is relaxed at this assurance, the trial is left out.
@@ -59,7 +62,9 @@ bool is_among_estimates(Task task, const Surroundings& near);
 /// | that equal the full one                          | Step, kSmallerSteps times, for Fly from rest                |
 /// | Stop at the last of them                         | Stop                                                        |
 ///
-/// *Among estimates* means is_among_estimates().
+/// *Among estimates* means is_among_estimates(). There a vehicle that has been at rest for kMaxWaitAtRest searches
+/// thoroughly at the reduced assurances: each request with one duration, which its id chooses. Every n-th request tries
+/// all of the n − 1 durations as in flight.
 /// @param near  at full assurance
 std::vector<Trial> schedule(Task task, const Surroundings& near);
 

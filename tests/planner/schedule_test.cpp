@@ -77,6 +77,28 @@ TEST_F(ScheduleTest, AmongEstimatesTheAssuranceFallsFromTrialToTrialAndAnEvasion
   EXPECT_EQ(trials[9].wait_s, kMaxWaitAtRest) << "a scaled α has no confidence";
 }
 
+TEST_F(ScheduleTest, AVehicleThatHasBeenAtRestSearchesEachDurationThoroughlyInTurn) {
+  for (std::int64_t id = 1; id <= 20; ++id) {
+    request_.id = id;
+    for (const Trial& trial : made(Task::Fly, TrackKind::Estimated)) EXPECT_FALSE(trial.duration);
+  }
+  request_.t_s = rest_.end() + Duration::from_seconds(kMaxWaitAtRest) + Duration{1};
+  const auto durations = static_cast<int>(config_.duration_scales.size());
+  std::vector<int> turns(idx(durations + 1), 0);
+  for (std::int64_t id = 1; id <= 2 * (durations + 1); ++id) {
+    request_.id = id;
+    const std::vector<Trial> trials = made(Task::Fly, TrackKind::Estimated);
+    const Trial& reduced = trials[1];
+    EXPECT_EQ(reduced.effort, reduced.duration ? Effort::Thorough : Effort::Reduced);
+    EXPECT_EQ(effort_of(reduced.effort, SearchConfig{}).max_expansions,
+              reduced.duration ? SearchConfig{}.max_expansions : kReducedExpansions);
+    for (std::size_t k = 1; k + 1 < trials.size(); ++k) EXPECT_EQ(trials[k].duration, reduced.duration);
+    EXPECT_FALSE(trials.front().duration) << "the full assurance is searched as ever";
+    ++turns[idx(reduced.duration.value_or(durations))];
+  }
+  EXPECT_THAT(turns, ::testing::Each(2)) << "each duration, and all of them, have their turn";
+}
+
 TEST_F(ScheduleTest, AmongEstimatesARelaxedStartLeavesOutTheFullAssurance) {
   const std::vector<Trial> trials = made(Task::Fly, TrackKind::Estimated, 0.7);
   ASSERT_EQ(trials.size(), 10U);

@@ -1,10 +1,13 @@
 // Whole flights among undeclared moving obstacles, seen within 8 m, late, with noise and without ids.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "campaign/virtual_system.h"
 #include "core/base/random.h"
 #include "messages/channels.h"
 #include "simulator/app/simulator_node.h"
+#include "tests/support/temp_folder.h"
 #include "tests/support/watched_flight.h"
 
 namespace tern::testing {
@@ -19,6 +22,32 @@ TEST_P(SandoPerception, TheForestIsFlownThroughUnharmedByTheDefaults) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, SandoPerception, ::testing::Values(2, 11));
+
+constexpr const char* kBoxInTheWay = R"(
+world:
+  obstacles: [{centre: [12, 0, 2.5], half_extents: [0.5, 1.5, 2.5]}]
+uav:
+  start: [9.2, 0, 1.5]
+  goal: [25, 0, 1.5]
+  flight_box: {min: [-5, -8, 0], max: [32, 8, 5]}
+  limits: {v_max: [3, 3, 1.5], a_max: [6, 6, 4]}
+simulator:
+  declare: false
+  sensor: {mode: noisy, dropout: 0}
+timeout_s: 20
+)";
+
+/// The path to the goal knows no detected obstacle, so the local goal lies behind the box.
+TEST(DetectedBox, AVehicleThatStandsInFrontOfItFliesAround) {
+  const TempFolder folder;
+  std::ofstream(folder.file("box.yaml")) << kBoxInTheWay;
+  for (const char* limits : {"uav.limits.v_max=[3, 3, 1.5]", "uav.limits.v_max=[6, 6, 6]"}) {
+    const VirtualFlight flight = fly_virtually(folder.file("box.yaml"), {limits});
+    EXPECT_EQ(flight.end, "");
+    expect_reached(flight.result);
+    EXPECT_LT(flight.result.flight_time_s, 10.0) << limits;
+  }
+}
 
 /// A second sensor that reports only false detections: with each set of the true sensor, somewhere around it.
 class FalseAlarms {
