@@ -60,8 +60,8 @@ class CommandedMotion {
 
   /// The command at any t. After settled().end() it is the command without another setpoint.
   [[nodiscard]] MotionSample sample(UTime t) const;
-  /// The acceleration at t + lead (m/s², W), for a vehicle that must tilt first: of the plan that comes next, else of
-  /// the committed trajectory. While the command brakes it is a(t) + lead·j(t).
+  /// The acceleration at t + lead (m/s², W), for a vehicle that must tilt first. If the received plan starts before
+  /// that time, it is the plan's; else the committed trajectory's. While the command brakes it is a(t) + lead·j(t).
   [[nodiscard]] Vec3 acceleration_ahead(UTime t, Duration lead) const;
   [[nodiscard]] double yaw() const { return yaw_; }  ///< rad, of the newest setpoint
   /// Whether the command after settled().end() is a committed trajectory. False: it brakes.

@@ -59,7 +59,7 @@ struct ExecutorCounters {
 /// 1. At most one request is outstanding. The next one follows its answer or its deadline, at no more than rate_hz.
 /// 2. An answer is in time if now ≤ deadline. After the deadline the request is closed, and its answer is refused.
 /// 3. No requests are made before the time of begin(), after pause(), without a goal mode, or in mode Stop.
-/// 4. A stationary vehicle goes on requesting plans, also at the goal: it must be able to evade.
+/// 4. For a stationary vehicle requests continue, also at the goal: it must be able to evade.
 class Executor {
  public:
   /// Commits to rest at uav.start from `now` on. @throws std::invalid_argument if config is out of its ranges.

@@ -94,9 +94,9 @@ const char* to_string(Stage stage);
 /// the scenario must fit them. All are set back in stage Landed, and when the process ends, if the vehicle is disarmed.
 ///
 /// **HEARTBEAT as a ground station.** A PX4 sends STATUSTEXT, which says why arming is denied, only to a link with a
-/// ground station. So the bridge sends a second HEARTBEAT of that type. It must never stand for an operator's ground
-/// station, or its end be taken for the loss of one. So it is sent only if NAV_DLL_ACT was read as 0: the autopilot
-/// then acts on no such loss. An ArduPilot sends STATUSTEXT to every link.
+/// ground station. So the bridge sends a second HEARTBEAT of that type, but only if NAV_DLL_ACT was read as 0. With
+/// another value the autopilot acts on the loss of a ground station, and would take this HEARTBEAT for an operator's.
+/// An ArduPilot sends STATUSTEXT to every link.
 ///
 /// **A pilot's switch has priority**: ModeArbiter.
 ///

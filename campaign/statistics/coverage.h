@@ -91,8 +91,8 @@ struct CoverageShare {
   [[nodiscard]] bool is_refuted() const { return upper_bound < confidence; }
 };
 
-/// The probability that any share of a flight or campaign is_refuted() although all confidences are true. Each of the
-/// kTestedShares tests has its part of it (Bonferroni). Declared tracks are not counted, because they are certain.
+/// The probability that any share of a flight or campaign is_refuted() although all confidences are true. It is divided
+/// equally among kTestedShares tests (Bonferroni). Declared tracks are not tested, because they are certain.
 inline constexpr double kFalseAlarm = 1e-3;
 inline constexpr double kTestedShares = (kPredictionClasses - 1) * kHorizons * kLevels + kLevels;
 

@@ -184,12 +184,12 @@ inline constexpr double kSightAhead = 1.0;
 inline constexpr int kPathPlaces = 6;
 /// Places nearer than this have no direction, m.
 inline constexpr double kNearestPlace = 0.3;
-/// The way ahead of a slower vehicle counts as that of one of this speed, m/s.
+/// A slower vehicle is treated as if it flew at this speed, m/s.
 inline constexpr double kLeastPathSpeed = 0.5;
 /// Step and number of the times at which the plan's distance to tracks is tested, s.
 inline constexpr Duration kTrackStep{250'000};
 inline constexpr int kTrackSteps = 12;
-/// More α than this counts as this, m.
+/// The worth of a track takes at most this α, m.
 inline constexpr double kAlphaCap = 1.5;
 /// The worth of a track falls by e per this distance from the plan (m), and per this time (s).
 inline constexpr double kTrackReach = 1.0;
