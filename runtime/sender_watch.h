@@ -19,8 +19,8 @@ inline constexpr Duration kMaxAhead{100'000};
 inline constexpr Duration kSenderTroubleReported{2'000'000};
 
 /// How long the active sender of a channel must be silent before another one is accepted.
-/// @return nullopt if any number of senders may publish at a time: on GOAL, HEARTBEAT, CONFIGURATION, the channels of
-///   sensors (Channel::silence in messages/channels.h), and channels that Tern does not know.
+/// @return nullopt if several senders may publish at a time. These are channels without a Channel::silence
+///   (messages/channels.h): GOAL, HEARTBEAT, CONFIGURATION, those of sensors. Unknown channels as well.
 std::optional<Duration> sender_silence(std::string_view channel);
 
 /// Judges the headers of one channel's messages in the order of their arrival. Pure.
