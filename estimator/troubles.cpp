@@ -4,7 +4,8 @@ namespace tern {
 
 std::string to_text(Trouble trouble) {
   switch (trouble) {
-    case Trouble::ImuNotFinite: return "an IMU sample is not finite or beyond any IMU: not used; check the driver";
+    case Trouble::ImuNotFinite:
+      return "an IMU sample is not finite or beyond the range of any IMU: not used; check the driver";
     case Trouble::ImuOrder: return "an IMU sample is not newer than the one before: not used; send samples in order";
     case Trouble::ImuGap: return "IMU samples are missing: bridged with more uncertainty; check rate and transport";
     case Trouble::ImuSaturated: return "the IMU is saturated: used with more uncertainty; choose a larger range";
