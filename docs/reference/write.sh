@@ -30,6 +30,7 @@ sections=(
   tern-autopilot-sim autopilot_sim
   tern-logger logger
   tern-mission mission
+  tern-dimos dimos
 )
 
 keys() {

@@ -4,13 +4,9 @@
 
 #include <span>
 #include <type_traits>
-#include <utility>
 
-#include "messages/batching.h"
-#include "messages/channels.h"
 #include "ros2/topics.h"
 #include "ros_messages/type_hash.h"
-#include "runtime/log.h"
 #include "runtime/mac.h"
 
 namespace tern::ros2 {
@@ -27,13 +23,13 @@ DdsTopic dds_topic(const ros::FeedTopic& topic, const TopicNames& names, const Q
 Outlet::Outlet(Bus& bus, Participant& participant, const TopicNames& names, const std::set<std::string>& sent)
     : participant_(participant),
       feed_([this](const ros::FeedTopic& topic, const std::string& cdr) { write(topic.name, cdr); },
-            [this](std::string_view topic) { return is_wanted(topic); }, {}, ros::Drawings::Markers) {
+            [this](std::string_view topic) { return is_wanted(topic); }, {}, ros::Drawings::Markers),
+      bus_feed_(bus, feed_) {
   for (const ros::FeedTopic& topic : sent_topics()) {
     if (!sent.contains(topic.name)) continue;
     const int number = participant_.add_writer(dds_topic(topic, names, writer_qos(topic)));
     writers_[topic.name] = {number, topic.latched, {}};
   }
-  subscribe(bus);
 }
 
 bool Outlet::is_wanted(std::string_view topic) const {
@@ -43,28 +39,6 @@ bool Outlet::is_wanted(std::string_view topic) const {
 
 void Outlet::write(std::string_view topic, const std::string& cdr) {
   participant_.write(writers_.find(topic)->second.number, cdr);
-}
-
-void Outlet::subscribe(Bus& bus) {
-  using namespace channels;
-  bus.subscribe(kUavState, [this](const UavState& state) { feed_.receive(state); });
-  bus.subscribe(kSetpoint, [this](const UavState& setpoint) { feed_.receive_setpoint(setpoint); });
-  bus.subscribe(kVehicleStatus, [this](const VehicleStatus& status) { feed_.receive(status); });
-  bus.subscribe(kObstacleObservations, [this](const ObservationSet& frame) { feed_.receive(frame); });
-  bus.subscribe(kGoal, [this](const Goal& goal) { feed_.receive(goal); });
-  bus.subscribe(kHorizonRequest, [this](const HorizonRequest& request) { feed_.receive(request); });
-  bus.subscribe(kPlan, [this](const Plan& plan) { feed_.receive(plan); });
-  bus.subscribe(kObstacleTruth, [this](const ObstacleTruth& batch) {
-    if (auto batches = truth_.add(batch)) feed_.receive(join_batches(std::move(*batches)));
-  });
-  bus.subscribe(kPredictions, [this](const TrackSet& batch) {
-    if (auto batches = tracks_.add(batch)) feed_.receive(join_batches(std::move(*batches)));
-  });
-  bus.subscribe(kSemanticMap, [this](const MapChunk& chunk) {
-    const auto complete = maps_.add(chunk);
-    if (!complete) log::warn("{}", complete.error().message);
-    if (complete && *complete) feed_.receive(maps_.take(), chunk.header.utime);
-  });
 }
 
 void Outlet::write_clock(UTime now) {

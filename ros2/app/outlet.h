@@ -7,12 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "core/world/voxel_map.h"
-#include "messages/codec.h"
 #include "ros2/dds/participant.h"
 #include "ros2/names.h"
+#include "ros_bridge/app/bus_feed.h"
 #include "ros_messages/feed.h"
-#include "runtime/batches.h"
 #include "runtime/bus.h"
 
 namespace tern::ros2 {
@@ -34,7 +32,6 @@ class Outlet {
   std::string take_trouble();
 
  private:
-  void subscribe(Bus& bus);
   [[nodiscard]] bool is_wanted(std::string_view topic) const;
   void write(std::string_view topic, const std::string& cdr);
 
@@ -46,9 +43,7 @@ class Outlet {
   };
   std::map<std::string, Writer, std::less<>> writers_;  ///< by Tern's name of the topic
   ros::Feed feed_;
-  BatchCollector<ObstacleTruth> truth_;
-  BatchCollector<TrackSet> tracks_;
-  MapAssembler maps_;
+  ros::BusFeed bus_feed_;
 };
 
 }  // namespace tern::ros2

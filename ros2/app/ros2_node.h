@@ -21,7 +21,7 @@ struct Ros2Options {
   std::vector<std::string> remaps;  ///< see TopicNames
   std::string send = "all";         ///< topics, separated by commas; "all" or "none"
   std::string receive = "none";     ///< topics, separated by commas
-  InletOptions in;
+  ros::InletOptions in;
 };
 
 /// Reads a domain of ROS. @throws ConfigError unless it is a whole number of 0 … 232

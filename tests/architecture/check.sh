@@ -59,42 +59,45 @@ only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 only_in '^dds/' '^ros2/dds/' 'Cyclone DDS is for one adapter'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
-ours='^(core|geodesy|perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/'
+ours='^(core|geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/'
 never '^core/base/' "^core/(geometry|splines|world|drawing)/" 'base stands on nothing'
 never '^core/geometry/' '^core/(splines|world|drawing)/' 'geometry stands on base'
 never '^core/splines/' '^core/(world|drawing)/' 'splines stand on base and geometry'
 never '^core/world/' '^core/drawing/' 'what is drawn stands on world'
-never '^core/' '^(geodesy|perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^core/' '^(geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^perception/' '^(messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^perception/' '^(messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'perception stands on core'
-never '^geodesy/' '^(perception|messages|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^geodesy/' '^(perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'places on the earth stand on core'
-never '^messages/' '^(perception|ros_messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^messages/' '^(perception|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'messages stand on core'
-never '^ros_messages/' '^(perception|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^ros_messages/' '^(perception|messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'ROS messages stand on core'
-never '^flight_log/' '^(perception|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^ros_bridge/' '^(perception|flight_log|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+  'bridges to ROS stand on core and ROS messages, their app/ on the bus'
+never '^flight_log/' '^(perception|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'the log stands on core and messages'
-never '^runtime/' '^(perception|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^runtime/' '^(perception|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'runtime stands on core and messages'
 
-never '^(planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
-never '^(core|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools)/' \
+never '^(planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
+never '^(core|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools)/' \
   '^python/' 'the Python package stands on all others'
 
 # Who starts the others knows how to sum up for a monitor that cannot, no messages and no other process.
-never '^launcher/' '^(perception|messages|flight_log|planner|predictor|estimator|executor|simulator|mavlink|ros2|semantic_mapper|mission|logger|campaign|viewer|tools|tests)/' \
+never '^launcher/' '^(perception|messages|flight_log|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|campaign|viewer|tools|tests)/' \
   'the launcher stands on core, runtime and the summary'
 
 # A process library knows its own folder, core, what channels are called, and for a recorder the messages.
-for process in planner predictor estimator executor simulator mavlink ros2 semantic_mapper mission logger monitor viewer/bridge; do
+for process in planner predictor estimator executor simulator mavlink ros_bridge ros2 dimos semantic_mapper mission logger monitor viewer/bridge; do
   while IFS=$'\t' read -r file header; do
     case $file in "$process"/app/* | mavlink/sim/app/*) continue ;; esac
     case $header in
       "$process"/app/*) breach "$file includes $header: libraries do not know their node" ;;
       core/* | messages/channels.h | "$process"/*) ;;
-      ros_messages/*) [[ $process == ros2 ]] || breach "$file includes $header: a library knows no messages of ROS" ;;
+      ros_messages/* | ros_bridge/*) [[ $process == ros2 || $process == dimos || $process == ros_bridge ]] ||
+        breach "$file includes $header: a library knows no messages of ROS" ;;
       messages/*) [[ $process == logger ]] || breach "$file includes $header: a library knows no messages" ;;
       mavlink/frame.h | mavlink/messages.h) [[ $process == mission ]] || breach "$file includes $header: not its own" ;;
       geodesy/*) [[ $process == semantic_mapper || $process == mission ]] ||
@@ -108,9 +111,11 @@ for process in planner predictor estimator executor simulator mavlink ros2 seman
   done < <(awk -F'\t' -v f="^$process/" -v o="$ours" '$1 ~ f && $2 ~ o' <<<"$includes")
 done
 
-# A node stands on its own process's libraries; only tests, campaign and tools may host several nodes.
+# A node stands on its own process's libraries, and the two bridges to ROS-shaped messages on what they share; only tests, campaign
+# and tools may host several nodes.
 while IFS=$'\t' read -r file header; do
   case $file in tests/* | campaign/* | tools/* | benchmarks/* | python/*) continue ;; esac
+  [[ ${header%%/app/*} == ros_bridge && $file =~ ^(ros2|dimos)/app/ ]] && continue
   [[ ${file%%/app/*} == "${header%%/app/*}" ]] || breach "$file includes $header: another process's node"
 done < <(awk -F'\t' '$2 ~ /\/app\//' <<<"$includes")
 

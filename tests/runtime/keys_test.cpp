@@ -52,7 +52,7 @@ TEST(KeyRing, OnlyWhoHearsAPlanHoldsItsKey) {
     const bool hears = entry.process == "tern-planner" || entry.process == "tern-executor" ||
                        entry.process == "tern-simulator" || entry.process == "tern-mavlink" ||
                        entry.process == "tern-monitor" || entry.process == "tern-viewer" ||
-                       entry.process == "tern-ros2";
+                       entry.process == "tern-ros2" || entry.process == "tern-dimos";
     EXPECT_EQ(ring.find(channels::kPlan.name, Role::Planner) != nullptr, hears) << entry.process;
   }
 }

@@ -1,4 +1,4 @@
-#include "ros2/intake.h"
+#include "ros_bridge/intake.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 
 #include "core/base/digest.h"
 #include "core/world/message_limits.h"
-#include "ros2/stamps.h"
+#include "ros_bridge/stamps.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 namespace {
 
 constexpr std::int64_t kTrackIds = 1'000'000'000;
@@ -23,7 +23,7 @@ tl::unexpected<Refusal> refuse(std::string why) { return tl::unexpected(Refusal{
 /// Returns the pose of a frame in W.
 Taken<RigidTransform> pose_of(const std::string& frame, std::optional<UTime> at, const IntakeContext& context) {
   if (frame.empty()) return refuse("header.frame_id is empty; it must name a frame");
-  auto pose = context.transforms.find(kWorldFrame, frame, at);
+  auto pose = context.transforms.find(context.world_frame, frame, at);
   if (!pose) return tl::unexpected(Refusal{pose.error().message + " (/tf, /tf_static)", true});
   return *pose;
 }
@@ -111,6 +111,27 @@ Taken<PointLayout> layout_of(const ros::PointCloud2& cloud) {
   return layout;
 }
 
+/// The body at a time, and the frame that it was reported in.
+struct PoseInWorld {
+  UTime at;
+  RigidTransform T_WF, T_WB;
+};
+
+Taken<PoseInWorld> read_pose_in_world(const ros::PoseStamped& pose, const IntakeContext& context, Duration oldest) {
+  const UTime at = time_of(pose.header.stamp);
+  if (auto timely = check_stamp(at, context.now, oldest); !timely) return refuse(timely.error().message);
+  const auto T_WF = pose_of(pose.header.frame_id, at, context);
+  if (!T_WF) return tl::unexpected(T_WF.error());
+  const auto T_FB = read_pose(pose.pose);
+  if (!T_FB) return refuse(T_FB.error().message);
+  return PoseInWorld{at, *T_WF, T_WF->after(*T_FB)};
+}
+
+OdometryReading reading_of(const PoseInWorld& pose) {
+  const Vec3 forward = pose.T_WB.q * Vec3::UnitX();
+  return {pose.at, pose.T_WB.p, Vec3::Zero(), std::atan2(forward.y(), forward.x()), Vec3::Zero()};
+}
+
 float float_at(const std::uint8_t* bytes) {
   float x = 0.0F;
   std::memcpy(&x, bytes, sizeof x);
@@ -120,18 +141,20 @@ float float_at(const std::uint8_t* bytes) {
 }  // namespace
 
 Taken<OdometryReading> read(const ros::Odometry& odometry, const IntakeContext& context) {
-  const UTime at = time_of(odometry.header.stamp);
-  if (auto timely = check_stamp(at, context.now, kOldestOdometry); !timely) return refuse(timely.error().message);
-  const auto T_WF = pose_of(odometry.header.frame_id, at, context);
-  if (!T_WF) return tl::unexpected(T_WF.error());
-  const auto T_FB = read_pose(odometry.pose.pose);
-  if (!T_FB) return refuse(T_FB.error().message);
+  const auto pose = read_pose_in_world({odometry.header, odometry.pose.pose}, context, kOldestOdometry);
+  if (!pose) return tl::unexpected(pose.error());
   if (!is_finite(odometry.twist.twist.linear, kMaxSpeed)) return refuse("the velocity is not finite");
-  const RigidTransform T_WB = T_WF->after(*T_FB);
-  const Vec3 forward = T_WB.q * Vec3::UnitX();
-  const auto variance = variance_in(T_WF->q.toRotationMatrix(), odometry.pose.covariance);
-  return OdometryReading{at, T_WB.p, T_WB.q * vec(odometry.twist.twist.linear), std::atan2(forward.y(), forward.x()),
-                         variance ? Vec3(variance->cwiseSqrt()) : Vec3::Zero()};
+  OdometryReading reading = reading_of(*pose);
+  reading.velocity = pose->T_WB.q * vec(odometry.twist.twist.linear);
+  const auto variance = variance_in(pose->T_WF.q.toRotationMatrix(), odometry.pose.covariance);
+  if (variance) reading.position_sigma = variance->cwiseSqrt();
+  return reading;
+}
+
+Taken<OdometryReading> read_odometry(const ros::PoseStamped& odometry, const IntakeContext& context) {
+  const auto pose = read_pose_in_world(odometry, context, kOldestOdometry);
+  if (!pose) return tl::unexpected(pose.error());
+  return reading_of(*pose);
 }
 
 Taken<ObservationSet> read(const ros::Detection3DArray& array, const IntakeContext& context) {
@@ -147,7 +170,7 @@ Taken<ObservationSet> read(const ros::Detection3DArray& array, const IntakeConte
   }
   const auto T_WS = pose_of(array.header.frame_id, frame.at, context);
   if (!T_WS) return tl::unexpected(T_WS.error());
-  const bool in_world = array.header.frame_id == kWorldFrame;
+  const bool in_world = array.header.frame_id == context.world_frame;
   frame.sensor_position = in_world ? context.vehicle.value_or(Vec3::Zero()) : T_WS->p;
   std::set<std::int64_t> ids;
   for (std::size_t k = 0; k < array.detections.size(); ++k) {
@@ -185,9 +208,11 @@ Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeCo
   if (!layout) return tl::unexpected(layout.error());
   const auto T_WS = pose_of(cloud.header.frame_id, at, context);
   if (!T_WS) return tl::unexpected(T_WS.error());
-  const bool in_world = cloud.header.frame_id == kWorldFrame;
-  if (in_world && !context.vehicle)
-    return refuse("a cloud in map needs the vehicle's position, which is not known yet");
+  const bool in_world = cloud.header.frame_id == context.world_frame;
+  if (in_world && !context.vehicle) {
+    return refuse(
+        fmt::format("a cloud in {} needs the vehicle's position, which is not known yet", context.world_frame));
+  }
   CloudScan part;
   part.at = at;
   part.sensor_id = kRosSensor;
@@ -211,4 +236,4 @@ Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeCo
   return parts;
 }
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -3,13 +3,15 @@
 
 #include <deque>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/base/result.h"
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
-#include "ros2/intake.h"
+#include "ros_bridge/intake.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 
 /// Turns odometry into states. Odometry has no acceleration. The acceleration of a state is the slope of the velocities
 /// of the last kSlope, by least squares, and 0 until there are three.
@@ -22,7 +24,8 @@ class OdometryVehicle {
   /// A position this far from the one that the previous velocity leads to is a jump: an estimator that was reset, m.
   static constexpr double kJump = 0.3;
 
-  explicit OdometryVehicle(bool asks) : asks_(asks) {}
+  /// @param mode  of VEHICLE_STATUS
+  explicit OdometryVehicle(bool asks, std::string mode = "ROS 2") : asks_(asks), mode_(std::move(mode)) {}
   /// @return an Error if the reading is not newer than the one before
   Result<UavState> receive(const OdometryReading& reading);
   /// Takes what /following says.
@@ -32,9 +35,10 @@ class OdometryVehicle {
 
  private:
   bool asks_;
+  std::string mode_;
   std::deque<OdometryReading> readings_;  ///< of the last kSlope, the newest last
   std::optional<UTime> told_;             ///< when /following last said true
   std::int64_t resets_ = 0;
 };
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -7,7 +7,7 @@
 #include "core/base/time.h"
 #include "core/world/goal.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 
 /// A goal is sent at once, but two goals are at least kSpacing apart. It is repeated at 1 Hz until another process, the
 /// executor, repeats it. Asking for the same position again makes no new goal. A goal of another sender with a larger
@@ -30,4 +30,4 @@ class GoalSender {
   UTime sent_;
 };
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

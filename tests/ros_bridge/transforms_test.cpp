@@ -1,14 +1,14 @@
 // Poses of frames over time.
-#include "ros2/transforms.h"
+#include "ros_bridge/transforms.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "ros_messages/conversions.h"
-#include "tests/ros2/made_up.h"
+#include "tests/ros_bridge/made_up.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 namespace {
 
 using ::testing::HasSubstr;
@@ -99,4 +99,4 @@ TEST(Transforms, ForgetWhatIsOldAndTakeNoMoreThanTheirLimits) {
 }
 
 }  // namespace
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -1,32 +1,10 @@
-#include "ros2/odometry_vehicle.h"
+#include "ros_bridge/odometry_vehicle.h"
 
 #include <fmt/format.h>
 
-namespace tern::ros2 {
-namespace {
+#include "ros_bridge/slope.h"
 
-/// Returns the least-squares slope of velocity over time; 0 for less than three readings.
-Vec3 slope_of(const std::deque<OdometryReading>& readings) {
-  constexpr std::size_t kFewest = 3;
-  if (readings.size() < kFewest) return Vec3::Zero();
-  const auto n = static_cast<double>(readings.size());
-  const auto seconds = [&](const OdometryReading& r) { return (r.at - readings.back().at).seconds(); };
-  double mean_t = 0.0, squares = 0.0;
-  Vec3 mean_v = Vec3::Zero(), products = Vec3::Zero();
-  for (const OdometryReading& r : readings) {
-    mean_t += seconds(r) / n;
-    mean_v += r.velocity / n;
-  }
-  for (const OdometryReading& r : readings) {
-    const double t = seconds(r) - mean_t;
-    squares += t * t;
-    products += t * (r.velocity - mean_v);
-  }
-  return products / squares;  // stamps differ
-}
-
-}  // namespace
-
+namespace tern::ros {
 Result<UavState> OdometryVehicle::receive(const OdometryReading& reading) {
   if (!readings_.empty()) {
     const OdometryReading& last = readings_.back();
@@ -44,7 +22,7 @@ Result<UavState> OdometryVehicle::receive(const OdometryReading& reading) {
   state.at = reading.at;
   state.motion.p = reading.position;
   state.motion.v = reading.velocity;
-  state.motion.a = slope_of(readings_);
+  state.motion.a = slope_of(readings_, &OdometryReading::velocity);
   state.yaw = reading.yaw;
   return state;
 }
@@ -56,7 +34,7 @@ void OdometryVehicle::receive_following(bool following, UTime now) {
 VehicleStatus OdometryVehicle::status(UTime now) const {
   VehicleStatus status;
   status.at = now;
-  status.mode = "ROS 2";
+  status.mode = mode_;
   status.resets = resets_;
   if (readings_.empty()) {
     status.why_not = "no odometry has come";
@@ -79,4 +57,4 @@ std::optional<Vec3> OdometryVehicle::position() const {
   return readings_.empty() ? std::nullopt : std::optional(readings_.back().position);
 }
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -1,4 +1,4 @@
-#include "ros2/transforms.h"
+#include "ros_bridge/transforms.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/world/message_limits.h"
-#include "ros2/stamps.h"
+#include "ros_bridge/stamps.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 namespace {
 
 constexpr double kUnitTolerance = 0.01;
@@ -110,4 +110,4 @@ Result<RigidTransform> TransformBuffer::find(const std::string& base, const std:
   return base_pose->inverse().after(*pose);
 }
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -10,12 +10,12 @@
 #include "core/base/types.h"
 #include "core/world/observation.h"
 #include "core/world/scan.h"
-#include "ros2/transforms.h"
+#include "ros_bridge/transforms.h"
 #include "ros_messages/types.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 
-/// The frame W.
+/// The frame W, as ROS calls it (REP 105).
 inline constexpr char kWorldFrame[] = "map";
 /// Sensors of ROS on OBSTACLE_OBSERVATIONS and POINT_CLOUD.
 inline constexpr std::int32_t kRosSensor = 2'000;
@@ -42,6 +42,7 @@ struct IntakeContext {
   double detection_sigma_m = 0.1;    ///< standard deviation of positions without covariance, m
   double detection_range_m = 0.0;    ///< of the detector, m; 0: unlimited
   double cloud_range_m = 0.0;        ///< of the lidar, m; 0: unlimited
+  std::string world_frame = kWorldFrame;
 };
 
 /// The state of the vehicle by one odometry, in W.
@@ -55,6 +56,8 @@ struct OdometryReading {
 /// The pose is in header.frame_id, and the velocity in the axes of the child, which is the vehicle's body. A covariance
 /// with a negative or infinite number counts as unknown.
 Taken<OdometryReading> read(const ros::Odometry& odometry, const IntakeContext& context);
+/// The same of a pose alone: velocity 0 (pose_velocity.h derives it), sigma unknown.
+Taken<OdometryReading> read_odometry(const ros::PoseStamped& odometry, const IntakeContext& context);
 
 /// Each oriented box becomes the box along W's axes that contains it. The variance is that of the first result, or
 /// detection_sigma_m². An `id` of digits below 10⁹ is the track id; another text becomes a number of its own.
@@ -67,4 +70,4 @@ Taken<Vec3> read(const ros::PoseStamped& goal, const IntakeContext& context);
 /// The scans of a cloud with float32 fields x, y, z, and with `class` (uint8) if it has one.
 Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeContext& context);
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

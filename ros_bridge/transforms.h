@@ -12,7 +12,7 @@
 #include "core/base/types.h"
 #include "ros_messages/types.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 
 /// The pose of a frame F in a frame P: x_P = R_PF·x_F + p_PF.
 struct RigidTransform {
@@ -64,4 +64,4 @@ class TransformBuffer {
   std::map<std::string, Frame, std::less<>> frames_;  ///< by name
 };
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -4,10 +4,10 @@
 #include <random>
 #include <string>
 
-#include "ros2/transforms.h"
+#include "ros_bridge/transforms.h"
 #include "ros_messages/conversions.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 
 inline double any_number(std::mt19937_64& rng, double within) {
   return std::uniform_real_distribution<double>(-within, within)(rng);
@@ -30,4 +30,4 @@ inline ros::TransformStamped transform_of(const std::string& parent, const std::
   return {{ros::to_ros(at), parent}, child, {to_ros(pose.p), to_ros(pose.q)}};
 }
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -1,5 +1,5 @@
 // ROS's messages as Tern's values: there and back, by brute force, and by hostile bytes.
-#include "ros2/intake.h"
+#include "ros_bridge/intake.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 
 #include "messages/codec.h"
 #include "ros_messages/cdr.h"
-#include "tests/ros2/made_up.h"
+#include "tests/ros_bridge/made_up.h"
 #include "tests/support/effort.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 namespace {
 
 using ::testing::HasSubstr;
@@ -292,4 +292,4 @@ TEST_F(Intake, HostileBytesGiveLegalMessagesOrNone) {
 }
 
 }  // namespace
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -7,7 +7,7 @@
 #include "core/base/time.h"
 #include "ros_messages/types.h"
 
-namespace tern::ros2 {
+namespace tern::ros {
 
 /// A stamp may be this far ahead of the own clock, as in all messages of Tern.
 inline constexpr Duration kMaxAhead{100'000};
@@ -20,9 +20,9 @@ inline Result<void> check_stamp(UTime at, UTime now, Duration oldest) {
   const Duration age = now - at;
   if (age <= oldest && age >= Duration{-kMaxAhead.us}) return {};
   return fail(
-      fmt::format("its stamp is {:.3f} s {}; clocks must agree, and use_sim_time be false unless the flight is "
+      fmt::format("its stamp is {:.3f} s {}; clocks must agree, and ROS's use_sim_time be false unless the flight is "
                   "slowed",
                   std::abs(age.seconds()), age.us > 0 ? "old" : "ahead"));
 }
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

@@ -1,8 +1,8 @@
-#include "ros2/goal_sender.h"
+#include "ros_bridge/goal_sender.h"
 
 #include <algorithm>
 
-namespace tern::ros2 {
+namespace tern::ros {
 
 void GoalSender::ask(const Vec3& position) {
   const bool is_same = heard_ && heard_->mode == GoalMode::Go && heard_->position == position;
@@ -28,4 +28,4 @@ std::optional<Goal> GoalSender::due(UTime now) {
   return goal_;
 }
 
-}  // namespace tern::ros2
+}  // namespace tern::ros

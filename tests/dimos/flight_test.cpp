@@ -1,0 +1,163 @@
+// A drone of DimOS flies by Tern through fifty boxes that it detects: poses, boxes and a goal in; velocities and paths
+// out. tern-dimos, tern-executor, tern-planner, tern-predictor and tern-mapper are processes; there is no simulator.
+// Runs inside tests/support/hermetic.sh.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "tests/dimos/dimos_peer.h"
+#include "tests/support/child_process.h"
+#include "tests/support/network_end.h"
+
+namespace tern::dimos {
+namespace {
+
+using namespace channels;
+
+using BoxList = std::vector<std::pair<Vec3, Vec3>>;  ///< centre and whole extents
+
+/// Fifty pillars in DimOS's world, 8 m to either side of the way north, clear of its ends.
+BoxList some_boxes() {
+  std::mt19937_64 rng(5);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); };
+  BoxList boxes;
+  while (boxes.size() < 50) {
+    const double x = between(4.0, 27.0), y = between(-8.0, 8.0), width = between(0.4, 1.0);
+    boxes.emplace_back(Vec3(x, y, 1.5), Vec3(width, width, 3.0));
+  }
+  return boxes;
+}
+
+/// As DimOS's MAVLink drone: it takes velocities of its body (x ahead, y to the right), keeps its height and yaw, and
+/// reports its pose at 30 Hz. Its autopilot follows a velocity with a lag, and holds the last one for a second.
+class Drone {
+ public:
+  explicit Drone(DimosPeer& dimos) : dimos_(dimos), twists_(dimos.keep<geometry_msgs::Twist>(kTwistChannel)) {}
+
+  void step(UTime now) {
+    dimos_.poll();
+    for (; !twists_.empty(); twists_.pop_front()) {
+      const Vec3 v = vec(twists_.front().linear);
+      wish_ = Eigen::AngleAxisd(kYaw, Vec3::UnitZ()) * Vec3(v.x(), -v.y(), 0.0);
+      told_ = now;
+    }
+    if (now - told_ > Duration{1'000'000}) wish_.setZero();
+    if (now < next_) return;
+    if (next_ != UTime{}) {
+      const double dt = kStep.seconds();
+      v += dt / kLag * (wish_ - v);
+      p += dt * v;
+    }
+    next_ = now + kStep;
+    for (const auto& [centre, size] : boxes) {
+      nearest = std::min(nearest, ((p - centre).cwiseAbs() - size / 2).cwiseMax(0.0).norm());
+    }
+    if (++steps_ % 3 != 0) return;
+    dimos_.send(kOdomChannel, pose_at(now, p, kYaw));
+    dimos_.send(kDetectionsChannel, boxes_at(now, boxes));
+  }
+
+  const BoxList boxes = some_boxes();
+  Vec3 p{0.0, 0.0, 1.5}, v = Vec3::Zero();  ///< DimOS's world
+  double nearest = 1e9;                     ///< distance of its centre from the boxes so far, m
+
+ private:
+  static constexpr Duration kStep{11'000};
+  static constexpr double kLag = 0.2;   // s
+  static constexpr double kYaw = -0.7;  ///< whatever it flies
+
+  DimosPeer& dimos_;
+  std::deque<geometry_msgs::Twist>& twists_;
+  Vec3 wish_ = Vec3::Zero();
+  UTime next_, told_;
+  int steps_ = 0;
+};
+
+class DimosFlight : public ::testing::Test, protected NetworkEnd {
+ protected:
+  DimosFlight() {
+    bus->subscribe(kPlan, [this](const Plan& plan) {
+      if (plan.outcome != PlanOutcome::NoPlan) plans[plan.trajectory.start.us] = plan.trajectory;
+    });
+    for (const char* program : {TERN_EXECUTOR, TERN_PLANNER, TERN_PREDICTOR, TERN_MAPPER}) {
+      children.push_back(std::make_unique<Child>(std::vector<std::string>{program, "--config", TERN_DRONE}));
+    }
+    start_module();
+  }
+  void TearDown() override {
+    children.push_back(std::move(module));
+    for (const auto& child : children) {
+      if (!HasFailure()) continue;
+      child->signal(SIGTERM);
+      child->wait();
+      std::cout << child->output;
+    }
+  }
+  void start_module() {
+    module = std::make_unique<Child>(std::vector<std::string>{
+        TERN_DIMOS, "--config", TERN_DRONE, "--dimos_url", kDimosUrl, "--odom", kOdomChannel, "--detections",
+        kDetectionsChannel, "--goal_request", kGoalChannel, "--cmd_vel", kTwistChannel, "--path", kPathChannel});
+  }
+  /// Lets the drone live until the condition holds.
+  bool until(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      pollfd fd{lcm->getFileno(), POLLIN, 0};
+      poll(&fd, 1, 2);
+      drain(*lcm, 1'000);
+      bus->rethrow();
+      drone.step(clock.now());
+    }
+    return true;
+  }
+  std::string last_words() const { return beats.empty() ? "no heartbeat" : beats.back().waiting_for; }
+
+  DimosPeer dimos;
+  Drone drone{dimos};
+  std::vector<std::unique_ptr<Child>> children;
+  std::unique_ptr<Child> module;
+  std::map<std::int64_t, TimedSpline> plans;  ///< by the time of their start, µs
+};
+
+TEST_F(DimosFlight, ADroneFliesAroundWhatItDetectsToTheGoalOfDimos) {
+  auto& paths = dimos.keep<nav_msgs::Path>(kPathChannel);
+  const Vec3 goal(30.0, 0.0, 1.5);
+  UTime next_goal;
+  ASSERT_TRUE(until([&] {
+    if (clock.now() >= next_goal) {
+      dimos.send(kGoalChannel, pose_at(clock.now(), goal));
+      next_goal = clock.now() + Duration{500'000};
+    }
+    return drone.p.x() > 8.0;
+  })) << last_words();
+  EXPECT_GT(drone.v.norm(), 0.5) << "it flies";
+  module->signal(SIGTERM);
+  ASSERT_TRUE(until([&] { return drone.v.norm() < 0.01; })) << "it comes to rest";
+  EXPECT_EQ(module->wait(), 0);
+  EXPECT_LT(drone.p.x(), 20.0);
+  start_module();
+  ASSERT_TRUE(until([&] { return (drone.p - goal).norm() < 0.1 && drone.v.norm() < 0.05; })) << last_words();
+  EXPECT_GT(drone.nearest, 0.3) << "the body's radius";
+
+  std::size_t compared = 0;
+  for (const nav_msgs::Path& path : paths) {
+    const auto plan = plans.find(path.header.stamp.sec * 1'000'000LL + path.header.stamp.nsec / 1'000);
+    if (plan == plans.end()) continue;  // sent before this test received it, or lost on the bus
+    ++compared;
+    for (const geometry_msgs::PoseStamped& pose : path.poses) {
+      const UTime at{pose.header.stamp.sec * 1'000'000LL + pose.header.stamp.nsec / 1'000};
+      const Vec3 p_D = vec(pose.pose.position);
+      EXPECT_LT((Vec3(-p_D.y(), p_D.x(), p_D.z()) - plan->second.sample(at).p).norm(), 1e-9);
+    }
+  }
+  EXPECT_GT(compared, 50U);
+  EXPECT_EQ(dimos.undecoded, 0);
+}
+
+}  // namespace
+}  // namespace tern::dimos
