@@ -12,9 +12,9 @@ struct WorldConfig {
 
   template <typename V>
   void visit(V& v) {
-    v("x", x, Range::within(1e6), "where the origin of DimOS's world lies in W, m");
-    v("y", y, Range::within(1e6), "the same");
-    v("z", z, Range::within(1e6), "the same");
+    v("x", x, Range::within(1e6), "where the origin of DimOS's world lies in W, x, m");
+    v("y", y, Range::within(1e6), "the same, y");
+    v("z", z, Range::within(1e6), "the same, z");
     v("yaw_deg", yaw_deg, Range::within(360.0),
       "angle from W's x axis to that of DimOS's world, degrees; 90 if that points north, as its MAVLink drone has it");
   }
@@ -41,6 +41,8 @@ struct DimosConfig {
     v("position_per_s", following.position_per_s, Range{0.0, 10.0},
       "cmd_vel: m/s of velocity per m between setpoint and vehicle");
     v("yaw_per_s", following.yaw_per_s, Range{0.0, 10.0}, "cmd_vel: rad/s per rad between the yaws");
+    v("lead_s", following.lead_s, Range{0.0, 2.0},
+      "cmd_vel: the velocity is that of this much later, because the vehicle lags behind velocities, s");
     v("far_m", following.far_m, Range{0.1, 100.0},
       "cmd_vel: a setpoint farther than this from the vehicle is not flown, m");
     v("lateral", following.lateral, KnobWords<Lateral>{{"left", Lateral::Left}, {"right", Lateral::Right}},

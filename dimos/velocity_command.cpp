@@ -10,7 +10,7 @@ std::optional<ros::Twist> velocity_command(const UavState& setpoint, const UavSt
   const Vec3 error = setpoint.motion.p - p;
   if (!(error.norm() <= gains.far_m)) return std::nullopt;
   const Eigen::AngleAxisd R_BW(-vehicle.yaw, Vec3::UnitZ());
-  const Vec3 v_B = R_BW * Vec3(setpoint.motion.v + gains.position_per_s * error);
+  const Vec3 v_B = R_BW * Vec3(setpoint.motion.v + gains.lead_s * setpoint.motion.a + gains.position_per_s * error);
   ros::Twist twist;
   twist.linear = {v_B.x(), gains.lateral == Lateral::Left ? v_B.y() : -v_B.y(), v_B.z()};
   twist.angular.z = gains.yaw_per_s * std::remainder(setpoint.yaw - vehicle.yaw, 2.0 * M_PI);

@@ -11,10 +11,10 @@
 namespace tern::ros {
 
 /// The slope of the positions of the last kWindow, by least squares. It lags by half of the window: at an acceleration
-/// of 2 m/s² the velocity is 0.25 m/s behind. Noise of σ at n readings becomes σ·√12 / (kWindow·√n).
+/// of 2 m/s² the velocity is 0.3 m/s behind. Noise of σ at n readings becomes σ·√12 / (kWindow·√n).
 class PoseVelocity {
  public:
-  static constexpr Duration kWindow{250'000};
+  static constexpr Duration kWindow{300'000};
   /// The readings span at least this: two that arrive at once tell nothing.
   static constexpr Duration kLeastSpan{100'000};
   /// A position this far from the line through the previous ones is a jump; the slope begins anew, m.

@@ -129,14 +129,19 @@ void DimosNode::subscribe(const DimosOptions& options) {
     if (!input) continue;
     network_->subscribe(*channel_of(options, in.port.name), in.waiting,
                         [this, input = *input, name = in.port.name](std::span<const std::uint8_t> bytes) {
-                          const UTime now = bus_.clock().now();
-                          if (input == ros::Input::Cloud && now < std::exchange(next_cloud_, now + kCloudPeriod))
-                            return;
-                          inlet_.receive(input, name, bytes, now, []<class M>(std::span<const std::uint8_t> message) {
-                            return decode<M>(message);
-                          });
+                          receive(input, name, bytes);
                         });
   }
+}
+
+void DimosNode::receive(ros::Input input, const std::string& port, std::span<const std::uint8_t> bytes) {
+  const UTime now = bus_.clock().now();
+  if (input == ros::Input::Cloud) {
+    if (now < next_cloud_) return;
+    next_cloud_ = now + kCloudPeriod;
+  }
+  inlet_.receive(input, port, bytes, now,
+                 []<class M>(std::span<const std::uint8_t> message) { return decode<M>(message); });
 }
 
 void DimosNode::step(UTime now) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ class DimosNode final : public Node {
 
  private:
   void subscribe(const DimosOptions& options);
+  void receive(ros::Input input, const std::string& port, std::span<const std::uint8_t> bytes);
   void command(UTime now);
   void report(UTime now);
   /// Returns the velocity that flies the newest setpoint now; nullopt, with the reason, if there is none.

@@ -41,8 +41,8 @@ class Drone {
   void step(UTime now) {
     dimos_.poll();
     for (; !twists_.empty(); twists_.pop_front()) {
-      const Vec3 v = vec(twists_.front().linear);
-      wish_ = Eigen::AngleAxisd(kYaw, Vec3::UnitZ()) * Vec3(v.x(), -v.y(), 0.0);
+      const auto& linear = twists_.front().linear;
+      wish_ = Eigen::AngleAxisd(kYaw, Vec3::UnitZ()) * Vec3(linear.x, -linear.y, 0.0);
       told_ = now;
     }
     if (now - told_ > Duration{1'000'000}) wish_.setZero();
@@ -115,7 +115,7 @@ class DimosFlight : public ::testing::Test, protected NetworkEnd {
     }
     return true;
   }
-  std::string last_words() const { return beats.empty() ? "no heartbeat" : beats.back().waiting_for; }
+  [[nodiscard]] std::string last_words() const { return beats.empty() ? "no heartbeat" : beats.back().waiting_for; }
 
   DimosPeer dimos;
   Drone drone{dimos};

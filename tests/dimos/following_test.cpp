@@ -31,6 +31,10 @@ TEST(VelocityCommand, IsInTheBodysAxes) {
   EXPECT_NEAR(twist->linear.y, 1.0, 1e-12) << "west is left";
   EXPECT_NEAR(twist->linear.z, 0.5 + 2.0 * 0.25, 1e-12);
   EXPECT_NEAR(twist->angular.z, 0.1, 1e-12);
+  UavState speeding = setpoint;
+  speeding.motion.a = Vec3(0.0, 3.0, 0.0);
+  gains.lead_s = 0.5;
+  EXPECT_NEAR(velocity_command(speeding, vehicle, gains)->linear.x, 3.0 + 0.5 * 3.0, 1e-12) << "it lags by 0.5 s";
   gains.lateral = Lateral::Right;
   EXPECT_NEAR(velocity_command(setpoint, vehicle, gains)->linear.y, -1.0, 1e-12);
 }

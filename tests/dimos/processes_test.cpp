@@ -34,15 +34,19 @@ class DimosProcesses : public ::testing::Test, protected NetworkEnd {
   }
   /// Does something at 50 Hz until the condition holds.
   bool repeat_until(const std::function<void()>& what, const std::function<bool()>& condition) {
-    UTime next = clock.now();
-    return wait_for([&] {
-      if (clock.now() >= next) {
-        what();
-        next = clock.now() + Duration{20'000};
-      }
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
+    for (UTime next = clock.now(); !condition();) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      pollfd fd{lcm->getFileno(), POLLIN, 0};
+      poll(&fd, 1, 2);
+      drain(*lcm, 1'000);
+      bus->rethrow();
       dimos.poll();
-      return condition();
-    });
+      if (clock.now() < next) continue;
+      what();
+      next = clock.now() + Duration{20'000};
+    }
+    return true;
   }
   bool says(const std::string& words) {
     return std::any_of(beats.begin(), beats.end(),
@@ -121,7 +125,8 @@ TEST_F(DimosProcesses, AreTheVehicleItsDetectorAndItsLidar) {
     const Vec3 p(2.0 * (now - begin).seconds(), 1.0, 2.0);  // 2 m/s north
     dimos.send(kOdomChannel, pose_at(now, p));
     tf2_msgs::TFMessage moving;
-    moving.transforms.resize(moving.transforms_length = 2);
+    moving.transforms_length = 2;
+    moving.transforms.resize(2);
     moving.transforms[0].header = header(now);
     moving.transforms[0].child_frame_id = "base_link";
     set(moving.transforms[0].transform.translation, p);
@@ -134,7 +139,8 @@ TEST_F(DimosProcesses, AreTheVehicleItsDetectorAndItsLidar) {
     sensor_msgs::PointCloud2 cloud;
     cloud.header = header(now, "base_link");
     cloud.height = cloud.width = 1;
-    cloud.fields.resize(cloud.fields_length = 3);
+    cloud.fields_length = 3;
+    cloud.fields.resize(3);
     for (int k = 0; k < 3; ++k) cloud.fields[std::size_t(k)] = {std::string(1, char('x' + k)), 4 * k, 7, 1};
     cloud.point_step = cloud.row_step = cloud.data_length = 12;
     const float point[3] = {1.0F, 0.0F, 0.5F};
@@ -146,7 +152,8 @@ TEST_F(DimosProcesses, AreTheVehicleItsDetectorAndItsLidar) {
   ASSERT_TRUE(repeat_until(send, [&] {
     return state && frame && scan && status && status->following && state->at - begin > Duration{1'000'000};
   }));
-  EXPECT_LT((state->motion.p - Vec3(-1.0, 2.0 * (state->at - begin).seconds(), 2.0)).norm(), 1e-3);
+  EXPECT_LT((state->motion.p - Vec3(-1.0, 2.0 * (state->at - begin).seconds(), 2.0)).norm(), 1e-3)
+      << "the lie is refused";
   EXPECT_LT((state->motion.v - Vec3(0.0, 2.0, 0.0)).norm(), 1e-2) << "from poses alone";
   EXPECT_NEAR(state->yaw, M_PI / 2, 1e-9);
   EXPECT_EQ(status->mode, "DimOS");
@@ -157,7 +164,6 @@ TEST_F(DimosProcesses, AreTheVehicleItsDetectorAndItsLidar) {
   EXPECT_LT((scan->points[0].position.cast<double>() - Vec3(0.0, 1.0, 0.5)).norm(), 1e-6);
   ASSERT_TRUE(wait_for([&] { return !status->following; })) << "the odometry has ended";
   EXPECT_THAT(status->why_not, HasSubstr("the newest odometry is 0."));
-  EXPECT_TRUE(wait_for([&] { return says("world: its pose is the scenario's"); }));
 }
 
 TEST_F(DimosProcesses, FlySetpointsByVelocitiesAndStopWhenTheyEnd) {
@@ -235,10 +241,12 @@ TEST_F(DimosProcesses, SurviveHostileBytes) {
   };
   sensor_msgs::PointCloud2 cloud;
   cloud.header = header(clock.now());
-  cloud.fields.resize(cloud.fields_length = 3);
+  cloud.fields_length = 3;
+  cloud.fields.resize(3);
   cloud.data.resize(std::size_t(cloud.data_length = 480));
   tf2_msgs::TFMessage transforms;
-  transforms.transforms.resize(transforms.transforms_length = 2);
+  transforms.transforms_length = 2;
+  transforms.transforms.resize(2);
   add(kOdomChannel, pose_at(clock.now(), Vec3::Zero()));
   add(kGoalChannel, pose_at(clock.now(), Vec3::Ones()));
   add(kDetectionsChannel, boxes_at(clock.now(), {{Vec3::Ones(), Vec3::Ones()}, {Vec3::Ones(), Vec3::Ones()}}));
