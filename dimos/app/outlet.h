@@ -29,8 +29,8 @@ struct OutPort {
 /// The ports that Outlet serves.
 const std::vector<OutPort>& out_ports();
 
-/// Publishes paths and drawings, in DimOS's world. Drawings of the map change seldom: they are repeated every kRepeat for
-/// readers that come later, as DimOS's channels keep nothing.
+/// Publishes paths and drawings, in DimOS's world. Drawings of the map change seldom: they are repeated every kRepeat
+/// for readers that come later, as DimOS's channels keep nothing.
 class Outlet {
  public:
   static constexpr Duration kRepeat{5'000'000};
