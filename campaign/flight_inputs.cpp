@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "detector/app/detector_node.h"
 #include "estimator/app/estimator_node.h"
 #include "executor/executor.h"
 #include "logger/app/logger_node.h"
@@ -90,6 +91,7 @@ void read_every_section(ConfigDocument& document) {
   (void)read_sections(document, read_scenario(document));
   ConfigSection root = document.root();
   (void)read_logger_config(root.section("logger"));
+  (void)root.section("detector").read<DetectorConfig>();
   (void)root.section("estimator").read<EstimatorNodeConfig>();
   (void)root.section("mavlink").read<mavlink::BridgeConfig>();
   (void)root.section("autopilot_sim").read<mavlink::SimulatedAutopilotConfig>();

@@ -92,6 +92,7 @@ choose_programs() {
     return
   fi
   [[ -z $view ]] || programs+=(tern-viewer tern-listen)
+  ! gives detector || programs+=(tern-detector)
   ! gives estimator && ! flies_on_estimate || programs+=(tern-estimator)
   [[ -z $autopilot ]] && ! gives mavlink || programs+=(tern-mavlink)
   [[ -z $mission ]] && ! gives mission || programs+=(tern-mission)

@@ -79,6 +79,7 @@ std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, co
       .restarted = false;
   for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
     add(name, {});
+  if (options.detects) add(kDetector, {});
   if (options.estimates) add(kEstimator, {});
   if (!options.mission.empty()) {
     std::vector<std::string>& words = add(kMission, {"--record", record}).child.command;

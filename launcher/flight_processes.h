@@ -32,6 +32,7 @@ struct LaunchOptions {
   std::string autopilot;           ///< address for tern-mavlink; empty: the simulator flies its own vehicle
   std::vector<std::string> autopilot_limits;  ///< overrides for a flight with an autopilot
   bool autopilot_sim = false;                 ///< the autopilot is tern-autopilot-sim; needs udp://
+  bool detects = false;                       ///< tern-detector runs as well (section detector)
   bool estimates = false;                     ///< tern-estimator flies as well (simulator.estimation: vio)
   std::string mission;                 ///< for tern-mission: a file, or a MAVLink URL; empty: the scenario's goal
   bool audit = false, report = false;  ///< run tern-audit, tern-report after the flight
@@ -49,7 +50,7 @@ struct SupervisedProcess {
 /// vehicle's own.
 std::vector<std::string> autopilot_limits(const Limits& limits);
 inline constexpr char kMavlink[] = "tern-mavlink", kAutopilotSim[] = "tern-autopilot-sim";
-inline constexpr char kEstimator[] = "tern-estimator";
+inline constexpr char kDetector[] = "tern-detector", kEstimator[] = "tern-estimator";
 inline constexpr char kMission[] = "tern-mission";
 inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kViewer[] = "tern-viewer";
 

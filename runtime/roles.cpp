@@ -68,6 +68,7 @@ const std::vector<ProcessRole>& process_roles() {
                 kTrackBounds)},
       {"tern-planner", Role::Planner,
        names_of(kHorizonRequest, kPredictions, kSemanticMap, kGoal, kPlan, kPlanHeading, kPlanTiming, kSearchView)},
+      {"tern-detector", Role::Vehicle, names_of(kDepthImage, kPointCloud, kSemanticMap, kObstacleSightings)},
       {"tern-estimator", Role::Vehicle, names_of(kImu, kFeatureTracks, kPositionFix, kPredictions, kOdometry)},
       {"tern-mapper", Role::Mapper, names_of(kSemanticMap, kUavState, kPointCloud, kDepthImage)},
       {"tern-logger", Role::Observer, {}},

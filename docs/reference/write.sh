@@ -25,6 +25,7 @@ sections=(
   tern-executor executor
   tern-simulator simulator
   tern-mapper mapper
+  tern-detector detector
   tern-estimator estimator
   tern-mavlink mavlink
   tern-autopilot-sim autopilot_sim

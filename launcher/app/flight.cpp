@@ -199,13 +199,15 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
     throw std::runtime_error("--pace: a real autopilot's clock cannot be slowed; use --pace 1");
   }
   if (!options.autopilot.empty()) options.autopilot_limits = autopilot_limits(scenario.uav.limits);
+  const std::vector<std::string> sections = document.root().keys();
+  options.detects = std::ranges::find(sections, "detector") != sections.end();
   options.estimates = document.root().section("simulator").text("estimation", "perfect") == "vio";
   int looked[2] = {-1, -1};
   if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
   int listens[2] = {-1, -1};
   if (pipe2(listens, O_CLOEXEC) == 0) options.listens_fd = listens[1];
   auto processes = flight_processes(options, record, make_keys(options));
-  run_checks(checks_of_unused_sections(options, processes, document.root().keys()), record);
+  run_checks(checks_of_unused_sections(options, processes, sections), record);
   announce(options, record, processes);
   Supervisor supervisor(signals);
   for (SupervisedProcess& process : processes) {

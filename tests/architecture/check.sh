@@ -59,38 +59,38 @@ only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 only_in '^dds/' '^ros2/dds/' 'Cyclone DDS is for one adapter'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
-ours='^(core|geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/'
+ours='^(core|geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/'
 never '^core/base/' "^core/(geometry|splines|world|drawing)/" 'base stands on nothing'
 never '^core/geometry/' '^core/(splines|world|drawing)/' 'geometry stands on base'
 never '^core/splines/' '^core/(world|drawing)/' 'splines stand on base and geometry'
 never '^core/world/' '^core/drawing/' 'what is drawn stands on world'
-never '^core/' '^(geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^core/' '^(geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^perception/' '^(messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^perception/' '^(messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'perception stands on core'
-never '^geodesy/' '^(perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^geodesy/' '^(perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'places on the earth stand on core'
-never '^messages/' '^(perception|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^messages/' '^(perception|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'messages stand on core'
-never '^ros_messages/' '^(perception|messages|ros_bridge|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^ros_messages/' '^(perception|messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'ROS messages stand on core'
-never '^ros_bridge/' '^(perception|flight_log|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^ros_bridge/' '^(perception|flight_log|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'bridges to ROS stand on core and ROS messages, their app/ on the bus'
-never '^flight_log/' '^(perception|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^flight_log/' '^(perception|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'the log stands on core and messages'
-never '^runtime/' '^(perception|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^runtime/' '^(perception|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'runtime stands on core and messages'
 
-never '^(planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
-never '^(core|messages|flight_log|runtime|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools)/' \
+never '^(planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
+never '^(core|messages|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools)/' \
   '^python/' 'the Python package stands on all others'
 
 # Who starts the others knows how to sum up for a monitor that cannot, no messages and no other process.
-never '^launcher/' '^(perception|messages|flight_log|planner|predictor|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|campaign|viewer|tools|tests)/' \
+never '^launcher/' '^(perception|messages|flight_log|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|campaign|viewer|tools|tests)/' \
   'the launcher stands on core, runtime and the summary'
 
 # A process library knows its own folder, core, what channels are called, and for a recorder the messages.
-for process in planner predictor estimator executor simulator mavlink ros_bridge ros2 dimos semantic_mapper mission logger monitor viewer/bridge; do
+for process in planner predictor detector estimator executor simulator mavlink ros_bridge ros2 dimos semantic_mapper mission logger monitor viewer/bridge; do
   while IFS=$'\t' read -r file header; do
     case $file in "$process"/app/* | mavlink/sim/app/*) continue ;; esac
     case $header in
@@ -102,8 +102,8 @@ for process in planner predictor estimator executor simulator mavlink ros_bridge
       mavlink/frame.h | mavlink/messages.h) [[ $process == mission ]] || breach "$file includes $header: not its own" ;;
       geodesy/*) [[ $process == semantic_mapper || $process == mission ]] ||
         breach "$file includes $header: places on the earth are for mapper and mission" ;;
-      perception/*) [[ $process == simulator || $process == predictor || $process == planner ]] ||
-        breach "$file includes $header: perception serves simulator, predictor and planner" ;;
+      perception/*) [[ $process =~ ^(simulator|predictor|planner|detector)$ ]] ||
+        breach "$file includes $header: perception serves simulator, predictor, planner and detector" ;;
       executor/*) [[ $process == simulator || $process == mavlink ]] || breach "$file includes $header: not its own" ;;
       simulator/vehicle/*) [[ $file == mavlink/sim/* ]] || breach "$file includes $header: not its own" ;;
       *) breach "$file includes $header: not its own" ;;
@@ -129,7 +129,7 @@ never '^planner/(safety|semantics|global_path)/' '^planner/(search|optimization)
 circle=$(awk -F'\t' -v o="$ours" '$2 ~ o' <<<"$includes" | tsort 2>&1 >/dev/null) || breach "includes in a circle: $circle"
 
 # An auditor shares data types with what it audits, no algorithms.
-never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|estimator|executor|simulator)' 'audit shares no algorithm'
+never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|detector|estimator|executor|simulator)' 'audit shares no algorithm'
 
 # One definition of a type name per namespace: two would break the one definition rule where both are linked. Counted are
 # definitions at the top of product files, outside unnamed namespaces; a forward declaration is no definition.

@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "launch_scripts"
 PROCESSES = {
-    "planner", "predictor", "executor", "simulator", "mapper", "estimator", "mavlink", "autopilot_sim", "logger", "mission"
+    "planner", "predictor", "executor", "simulator", "mapper", "detector", "estimator", "mavlink", "autopilot_sim", "logger", "mission"
 }
 COMMON = {"--help", "--version"}
 SHELL_WORDS = {"do", "done", "then", "else", "sudo", "time", "exec"}

@@ -433,7 +433,7 @@ expect_built() {
 fly_builds_what_flies_and_an_option_adds_its_programs() {
   local name fly_scenario=plain.yaml
   make_tree 1 true
-  for name in flight tern-{audit,autopilot-sim,campaign,estimator,key,listen,mavlink,mission,report,viewer}; do
+  for name in flight tern-{audit,autopilot-sim,campaign,detector,estimator,key,listen,mavlink,mission,report,viewer}; do
     # shellcheck disable=SC2016  # cmake expands it
     printf 'add_custom_target(%s COMMAND ${CMAKE_COMMAND} -E touch built-%s VERBATIM)\n' "$name" "$name" >>"$tree/CMakeLists.txt"
   done
@@ -447,6 +447,7 @@ fly_builds_what_flies_and_an_option_adds_its_programs() {
   expect_built 'flight tern-mavlink' --autopilot udp://127.0.0.1:14540
   expect_built 'flight tern-autopilot-sim tern-mavlink' --autopilot sim
   expect_built 'flight tern-mavlink' --set mavlink.rate_hz=50
+  expect_built 'flight tern-detector' --set detector.ground=false
   expect_built 'flight tern-estimator' --set estimator.clones=8
   expect_built 'flight tern-estimator' --set simulator.estimation=vio
   expect_built 'flight tern-mission' --mission "$work/plain.yaml"

@@ -41,6 +41,12 @@ TEST(FlightProcesses, HaveAnEstimatorIfTheScenarioAsksForIt) {
   EXPECT_TRUE(flight_processes(options, "r", {}).back().restarted);
 }
 
+TEST(FlightProcesses, HaveADetectorIfTheScenarioHasItsSection) {
+  LaunchOptions options = demo();
+  options.detects = true;
+  EXPECT_EQ(names(flight_processes(options, "r", {})).back(), "tern-detector");
+}
+
 TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
   LaunchOptions options = demo();
   options.autopilot = "udp://127.0.0.1:14540";

@@ -23,22 +23,7 @@ std::vector<DepthImage> image(const SensorPose& pose) {
   sensor.shape = camera_shape(1.2, 0.95, 640, 480);
   Scene scene(sensor);
   scene.render(pose, {kBox});
-  DepthImage first;
-  first.range_m = sensor.range_m;
-  first.sensor_position = pose.position;
-  first.q_WC = {pose.q_WC.w(), pose.q_WC.x(), pose.q_WC.y(), pose.q_WC.z()};
-  first.fx = sensor.shape.fx;
-  first.fy = sensor.shape.fy;
-  first.cx = sensor.shape.cx;
-  first.cy = sensor.shape.cy;
-  first.width = sensor.shape.columns;
-  DepthImage second = first;
-  second.first_row = 200;
-  for (int pixel = 0; pixel < sensor.shape.pixels(); ++pixel) {
-    const auto depth = static_cast<std::int16_t>(scene.picture.depths()[pixel] * 1000.0F);
-    (pixel < 200 * first.width ? first : second).depths.push_back(depth);
-  }
-  return {first, second};
+  return support::depth_images(scene.picture, 200);
 }
 
 void expect_the_box(const DepthPicture& picture, double tolerance) {

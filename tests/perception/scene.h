@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/world/scan.h"
 #include "core/world/sighting.h"
 #include "perception/depth_picture.h"
 #include "perception/rasterizer.h"
@@ -74,5 +75,27 @@ struct Scene {
     return of;
   }
 };
+
+/// The picture of a pinhole camera as DEPTH_IMAGEs in millimetres: the first `rows` rows, and the others.
+inline std::vector<DepthImage> depth_images(const DepthPicture& picture, int rows) {
+  const DepthSensor& sensor = picture.sensor();
+  const SensorPose& pose = picture.pose();
+  DepthImage first;
+  first.range_m = sensor.range_m;
+  first.sensor_position = pose.position;
+  first.q_WC = {pose.q_WC.w(), pose.q_WC.x(), pose.q_WC.y(), pose.q_WC.z()};
+  first.fx = sensor.shape.fx;
+  first.fy = sensor.shape.fy;
+  first.cx = sensor.shape.cx;
+  first.cy = sensor.shape.cy;
+  first.width = sensor.shape.columns;
+  DepthImage second = first;
+  second.first_row = rows;
+  for (int pixel = 0; pixel < sensor.shape.pixels(); ++pixel) {
+    const auto depth = static_cast<std::int16_t>(picture.depths()[pixel] * 1000.0F);
+    (pixel < rows * first.width ? first : second).depths.push_back(depth);
+  }
+  return {first, second};
+}
 
 }  // namespace tern::support

@@ -1,0 +1,101 @@
+// Joins the messages of one measurement: an image or a scan may be sent in parts.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/base/time.h"
+#include "core/world/scan.h"
+#include "runtime/node.h"
+
+namespace tern {
+
+/// Collects the messages of each sensor. Messages with the same time are one measurement.
+///
+/// | event                                          | effect on the measurement that waits                 |
+/// |------------------------------------------------|------------------------------------------------------|
+/// | a message of another time                      | complete                                             |
+/// | kPatience without a message                   | complete                                             |
+/// | an image has as many rows as the one before it | complete                                             |
+/// | a newer one is complete before it was taken    | left out: only the newest one of a sensor is used    |
+///
+/// @tparam M  DepthImage or CloudScan
+template <class M>
+class ScanParts {
+ public:
+  /// A measurement is complete this long after its last message.
+  static constexpr Duration kPatience{50'000};
+  static constexpr std::size_t kMaxSensors = 16;
+
+  /// A whole measurement.
+  struct Whole {
+    std::vector<M> parts;
+    int rows = 0;  ///< DepthImage: the number of rows that were sent
+  };
+
+  /// @return false if there are too many sensors
+  bool add(const M& part, UTime received) {
+    if (!sensors_.contains(part.sensor_id) && sensors_.size() >= kMaxSensors) return false;
+    Sensor& sensor = sensors_[part.sensor_id];
+    if (!sensor.waiting.parts.empty() && sensor.waiting.parts.front().at != part.at) finish(sensor);
+    sensor.waiting.parts.push_back(part);
+    sensor.waiting.rows = std::max(sensor.waiting.rows, last_row(part));
+    sensor.received = received;
+    if (sensor.rows > 0 && rows_of(sensor.waiting) >= sensor.rows) finish(sensor);
+    return true;
+  }
+  /// Returns the newest whole measurement of each sensor, in the order of their ids.
+  std::vector<Whole> take(UTime now) {
+    std::vector<Whole> whole;
+    for (auto& [id, sensor] : sensors_) {
+      if (!sensor.waiting.parts.empty() && now - sensor.received >= kPatience) finish(sensor);
+      if (!sensor.ready.parts.empty()) whole.push_back(std::exchange(sensor.ready, {}));
+    }
+    return whole;
+  }
+  /// When a measurement is complete even without another message; kNever if none waits.
+  [[nodiscard]] UTime next_complete() const {
+    UTime next = kNever;
+    for (const auto& [id, sensor] : sensors_) {
+      if (!sensor.waiting.parts.empty()) next = std::min(next, sensor.received + kPatience);
+    }
+    return next;
+  }
+  [[nodiscard]] bool any_ready() const {
+    return std::ranges::any_of(sensors_, [](const auto& entry) { return !entry.second.ready.parts.empty(); });
+  }
+  /// The number of measurements that were left out.
+  [[nodiscard]] std::int64_t left_out() const { return left_out_; }
+
+ private:
+  struct Sensor {
+    Whole waiting, ready;
+    UTime received;
+    int rows = 0;  ///< of the last whole image
+  };
+  static int last_row(const DepthImage& part) {
+    return part.first_row + static_cast<int>(part.depths.size()) / std::max(part.width, 1);
+  }
+  static int last_row(const CloudScan& /*part*/) { return 0; }
+  /// The number of rows that have come; parts may overtake each other.
+  static int rows_of(const Whole& whole) {
+    int rows = 0;
+    for (const M& part : whole.parts) rows += last_row(part) - first_row(part);
+    return rows;
+  }
+  static int first_row(const DepthImage& part) { return part.first_row; }
+  static int first_row(const CloudScan& /*part*/) { return 0; }
+  void finish(Sensor& sensor) {
+    if (!sensor.ready.parts.empty()) ++left_out_;
+    sensor.rows = sensor.waiting.rows;
+    sensor.ready = std::exchange(sensor.waiting, {});
+  }
+
+  std::map<std::int32_t, Sensor> sensors_;
+  std::int64_t left_out_ = 0;
+};
+
+}  // namespace tern

@@ -1,0 +1,170 @@
+// tern-detector: images and clouds in, sightings out.
+#include "detector/app/detector_node.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "messages/codec.h"
+#include "runtime/virtual_runner.h"
+#include "tests/perception/scene.h"
+#include "tests/support/voxel_maps.h"
+
+namespace tern {
+namespace {
+
+using support::Scene;
+using ::testing::HasSubstr;
+
+const Box kBox(Vec3(4, -0.5, 0.6), Vec3(5, 0.7, 1.6));
+
+class DetectorNodeTest : public ::testing::Test {
+ protected:
+  DetectorNodeTest() : scene_(optics()) {
+    node_ =
+        &runner_.start("tern-detector", [](Bus& bus) { return std::make_unique<DetectorNode>(bus, DetectorConfig{}); });
+    runner_.observer().subscribe(channels::kObstacleSightings, [this](const SightingSet& s) { frames_.push_back(s); });
+  }
+  static DepthSensor optics() {
+    DepthSensor sensor;
+    sensor.shape = camera_shape(1.2, 0.95, 160, 120);
+    sensor.noise = {0.0, 0.0025, 1};
+    return sensor;
+  }
+  void run(double seconds) { runner_.run(runner_.now() + Duration::from_seconds(seconds)); }
+  /// Renders the box from x, and sends the image in two parts.
+  void send_image(double x, std::int32_t sensor = 3) {
+    scene_.render(looking(Vec3(x, 0, 1), 0.0), {kBox}, 0.0, ++frame_);
+    send(support::depth_images(scene_.picture, 50), sensor);
+  }
+  void send(std::vector<DepthImage> parts, std::int32_t sensor = 3) {
+    for (DepthImage& part : parts) {
+      part.at = runner_.now();
+      part.sensor_id = sensor;
+      runner_.observer().publish(channels::kDepthImage, part);
+    }
+  }
+
+  VirtualRunner runner_;
+  Scene scene_;
+  int frame_ = 0;
+  const Node* node_ = nullptr;
+  std::vector<SightingSet> frames_;
+};
+
+TEST_F(DetectorNodeTest, FindsTheBoxAndNotTheGround) {
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("a scan on DEPTH_IMAGE or POINT_CLOUD"));
+  run(0.1);
+  const UTime at = runner_.now();
+  send_image(0.0);
+  run(0.1);
+  ASSERT_EQ(frames_.size(), 1u);
+  EXPECT_EQ(frames_[0].at, at);
+  EXPECT_EQ(frames_[0].sensor_id, 3);
+  EXPECT_GT(frames_[0].view.depths.size(), 100u);
+  ASSERT_EQ(frames_[0].sightings.size(), 1u);
+  const Sighting& box = frames_[0].sightings[0];
+  EXPECT_EQ(box.bounds[0], BoundSight::Face);
+  EXPECT_NEAR(box.lower.x(), 4.0, 0.05);
+  EXPECT_NEAR(box.upper.y(), 0.7, 0.1);
+  EXPECT_EQ(node_->health().waiting_for, "");
+}
+
+TEST_F(DetectorNodeTest, KnowsFromTheSecondImageOnHowManyRowsThereAre) {
+  send_image(0.0);
+  run(0.1);
+  send_image(0.0);
+  run(0.01);
+  EXPECT_EQ(frames_.size(), 2u) << "within the time in which further rows would have been awaited";
+}
+
+TEST_F(DetectorNodeTest, AnImageWhoseRestIsLostIsUsedAsFarAsItCame) {
+  scene_.render(looking(Vec3(0, 0, 1), 0.0), {kBox}, 0.0);
+  auto parts = support::depth_images(scene_.picture, 100);
+  parts.pop_back();
+  send(parts);
+  run(0.1);
+  ASSERT_EQ(frames_.size(), 1u);
+  EXPECT_EQ(frames_[0].sightings.size(), 1u);
+}
+
+TEST_F(DetectorNodeTest, ADepthThatIsAllZerosIsNamed) {
+  send_image(0.0);
+  auto parts = support::depth_images(scene_.picture, 50);
+  run(0.1);
+  for (DepthImage& part : parts) part.depths.assign(part.depths.size(), 0);
+  send(parts);
+  run(0.1);
+  EXPECT_EQ(frames_.size(), 1u);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 3: no pixel measured a depth"));
+  run(6.0);
+  send_image(0.0);
+  run(0.1);
+  EXPECT_EQ(node_->health().waiting_for, "");
+}
+
+TEST_F(DetectorNodeTest, ACameraThatFreezesInFlightIsNamedAndNotUsed) {
+  send_image(0.0);
+  run(0.1);
+  auto frozen = support::depth_images(scene_.picture, 50);
+  send(frozen);
+  run(0.1);
+  EXPECT_EQ(frames_.size(), 2u) << "a camera without noise, at rest, sends this as well";
+  for (DepthImage& part : frozen) part.sensor_position.x() += 0.5;
+  send(frozen);
+  run(0.1);
+  EXPECT_EQ(frames_.size(), 2u);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 3 is frozen"));
+}
+
+TEST_F(DetectorNodeTest, PointsOnTheMapAreNoSightings) {
+  VoxelMap map = support::free_map({24, 8, 8});
+  support::paint(map, {16, 0, 0}, {19, 7, 7}, VoxelLabel::Occupied);  // x from 4 to 5 m
+  for (const MapChunk& chunk : to_chunks(map)) runner_.observer().publish(channels::kSemanticMap, chunk);
+  run(0.1);
+  const Box wall(Vec3(4.1, 0.2, 0.3), Vec3(4.9, 1.8, 1.7));
+  scene_.render(looking(Vec3(0, 1, 1), 0.0), {wall}, 0.0);
+  send(support::depth_images(scene_.picture, 50));
+  run(0.1);
+  ASSERT_EQ(frames_.size(), 1u);
+  EXPECT_TRUE(frames_[0].sightings.empty());
+}
+
+TEST_F(DetectorNodeTest, APointCloudIsDetectedInAsWell) {
+  scene_.render(looking(Vec3(0, 0, 1), 0.0), {kBox}, 0.0);
+  CloudScan scan;
+  scan.at = runner_.now();
+  scan.sensor_id = 4;
+  scan.sensor_position = Vec3(0, 0, 1);
+  for (int pixel = 0; pixel < 4'000; ++pixel) {
+    const int k = pixel * scene_.picture.shape().pixels() / 4'000;
+    if (scene_.picture.is_surface(k))
+      scan.points.push_back({scene_.picture.at_depth(k, scene_.picture.depths()[k]), 0});
+  }
+  runner_.observer().publish(channels::kPointCloud, scan);
+  run(0.1);
+  ASSERT_EQ(frames_.size(), 1u);
+  EXPECT_EQ(frames_[0].sensor_id, 4);
+  EXPECT_GE(frames_[0].sightings.size(), 1u);
+}
+
+TEST_F(DetectorNodeTest, OfAFloodTheNewestImageOfEachSensorIsUsedAndTheRestCounted) {
+  for (int k = 0; k < 40; ++k) {
+    send_image(0.0, k % 2);
+    runner_.run(runner_.now() + Duration{100});
+  }
+  run(0.2);
+  EXPECT_LE(frames_.size(), 40u);
+  EXPECT_GE(frames_.size(), 4u);
+  for (int sensor = 0; sensor < 30; ++sensor) send_image(0.0, 100 + sensor);
+  run(0.1);
+  std::set<std::int32_t> sensors;
+  for (const SightingSet& frame : frames_) sensors.insert(frame.sensor_id);
+  EXPECT_LE(sensors.size(), ScanParts<DepthImage>::kMaxSensors);
+}
+
+}  // namespace
+}  // namespace tern
