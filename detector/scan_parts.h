@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/time.h"
 #include "core/world/scan.h"
-#include "runtime/node.h"
 
 namespace tern {
 
@@ -56,11 +56,13 @@ class ScanParts {
     }
     return whole;
   }
-  /// When a measurement is complete even without another message; kNever if none waits.
-  [[nodiscard]] UTime next_complete() const {
-    UTime next = kNever;
+  /// When a measurement is complete even without another message; nullopt if none waits.
+  [[nodiscard]] std::optional<UTime> next_complete() const {
+    std::optional<UTime> next;
     for (const auto& [id, sensor] : sensors_) {
-      if (!sensor.waiting.parts.empty()) next = std::min(next, sensor.received + kPatience);
+      if (sensor.waiting.parts.empty()) continue;
+      const UTime complete = sensor.received + kPatience;
+      next = std::min(next.value_or(complete), complete);
     }
     return next;
   }

@@ -40,7 +40,7 @@ void DetectorNode::on_map(const MapChunk& chunk) {
 
 UTime DetectorNode::next_wakeup() const {
   if (images_.any_ready() || clouds_.any_ready()) return UTime{0};
-  return std::min(images_.next_complete(), clouds_.next_complete());
+  return std::min(images_.next_complete().value_or(kNever), clouds_.next_complete().value_or(kNever));
 }
 
 void DetectorNode::step(UTime now) {

@@ -49,8 +49,26 @@ def signed(master, role, channel, message, header, suffix=""):
     return message + head + hashlib.blake2b(tagged, key=key, digest_size=16).digest()
 
 
+PACKET_BYTES = 1400  # of a datagram, so that Ethernet carries it whole
+
+
+def packets_of(number, channel, data):
+    """The datagrams of an LCM message: one, or fragments of a larger one."""
+    name = channel.encode() + b"\0"
+    if len(name) + len(data) <= PACKET_BYTES:
+        return [struct.pack(">II", 0x4C433032, number) + name + data]
+    first = PACKET_BYTES - len(name)
+    parts = [data[:first]] + [data[k:k + PACKET_BYTES] for k in range(first, len(data), PACKET_BYTES)]
+    packets, offset = [], 0
+    for k, part in enumerate(parts):
+        head = struct.pack(">IIIIHH", 0x4C433033, number, len(data), offset, k, len(parts))
+        packets.append(head + (name if k == 0 else b"") + part)
+        offset += len(part)
+    return packets
+
+
 class Bus:
-    """Sends LCM messages of at most 1400 bytes, which need no fragments. For more, and to receive, use LCM itself."""
+    """Sends LCM messages. To receive, use LCM itself."""
 
     def __init__(self, role, url=None, master=None):
         self.role, self.master = role, master
@@ -64,9 +82,9 @@ class Bus:
         self.sent[channel] = self.sent.get(channel, 0) + 1  # per channel, from 1
         message.header.name.sender_epoch_us, message.header.name.sequence = self.epoch_us, self.sent[channel]
         message.header.utime_us = now_us()
-        head = struct.pack(">II", 0x4C433032, self.packets) + channel.encode() + b"\0"
         data = message.encode()
         if self.master:
             data = signed(self.master, self.role, channel, data, message.header)
-        self.socket.sendto(head + data, self.address)
+        for packet in packets_of(self.packets, channel, data):
+            self.socket.sendto(packet, self.address)
         self.packets = (self.packets + 1) % 2**32
