@@ -35,7 +35,7 @@ void Tube::on_answer(const Plan& plan, bool rests, const Vec3& p, UTime at) {
   const bool is_new = plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted;
   const bool stalls = has_stalled(plan, p, at);
   if (is_new && !stalled_here_) speed_up(at);
-  if (stalls || (rests && is_blocked(plan))) slow_down(at);
+  if ((stalls && halvings_ < kStallHalvings) || (rests && is_blocked(plan))) slow_down(at);
 }
 
 /// A passage may be just too narrow for the tube: then plans are found, but none that leads through it.

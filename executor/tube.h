@@ -55,7 +55,8 @@ class PersistentError {
 /// |                                | not: their cause was reported, and is over                                   |
 /// | the estimator is reset         | the width grows by the shift: either position, before or after, may be true  |
 /// | stationary, and no way out     | share() is halved, once in kStepPeriod, at most kMaxHalvings times           |
-/// | within kStallRadius for kStall | share() is halved, once in kStall; not at the goal                           |
+/// | within kStallRadius for kStall | share() is halved, once in kStall, at most kStallHalvings times;             |
+/// |                                | not at the goal                                                              |
 /// | a plan is flown                | share() is doubled, if it has not changed during the patience, and the       |
 /// |                                | vehicle has left the place of its stall                                      |
 ///
@@ -79,6 +80,8 @@ class Tube {
   static constexpr Duration kPatience{2'000'000}, kMaxPatience{60'000'000};
   static constexpr double kStallRadius = 1.0;   ///< m
   static constexpr Duration kStall{4'000'000};  ///< slow movers pass by in that time
+  /// A slow vehicle sees less far ahead in time, and passes movers less easily.
+  static constexpr int kStallHalvings = 2;
 
   /// @param floor_m  smallest width, [0, kMaxTube]
   explicit Tube(double floor_m) : floor_m_(floor_m) {}

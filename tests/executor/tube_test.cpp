@@ -56,6 +56,8 @@ TEST(Tube, OfAVehicleThatGetsNoFurtherShrinksWithItsShareUntilItDoes) {
   EXPECT_LT(tube.width(Vec3::Zero(), at).x(), 0.2);
   stir_for(Tube::kStall, Vec3::Zero());
   EXPECT_EQ(tube.share(), 0.25) << "plans that lead nowhere do not speed it up";
+  stir_for(Tube::kStall * 2, Vec3::Zero());
+  EXPECT_EQ(tube.share(), 0.25) << "a passage that is closed at this width is closed for another reason";
   for (int k = 0; k < 600; ++k, at = at + Duration{50'000}) stirs(tube, Vec3(0.05 * k, 0.0, 0.0), at);
   EXPECT_EQ(tube.share(), 1.0);
   stir_for(Tube::kStall * 3, Vec3(99, 0, 0), PlanReason::AtGoal);
