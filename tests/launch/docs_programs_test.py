@@ -8,8 +8,10 @@ import os
 import random
 import socket
 import struct
-import sys
 import subprocess
+import sys
+import tempfile
+import time
 import unittest
 import zlib
 from pathlib import Path
