@@ -39,12 +39,12 @@ struct DetectorConfig {
 /// Finds sightings in every DEPTH_IMAGE and POINT_CLOUD by perception/, and publishes them as OBSTACLE_SIGHTINGS of the
 /// same sensor and time. Points on the ground and on the occupied voxels of SEMANTIC_MAP are no sightings.
 ///
-/// | input                                                        | effect                                            |
-/// |--------------------------------------------------------------|---------------------------------------------------|
-/// | an image without a measured depth, or with parts of another  | not used; HEARTBEAT names sensor and reason       |
-/// | depths that are the same, from another place (kFrozenMoved)  | not used; HEARTBEAT names the frozen sensor       |
-/// | images faster than they are handled                          | the newest of each sensor is used; HEARTBEAT says
-/// so | | no scan for kSilence                                         | HEARTBEAT is WAITING |
+/// | input                                                       | effect                                            |
+/// |-------------------------------------------------------------|---------------------------------------------------|
+/// | an image without a measured depth, or with parts of another | not used; HEARTBEAT names sensor and reason       |
+/// | depths that are the same, from another place (kFrozenMoved) | not used; HEARTBEAT names the frozen sensor       |
+/// | images faster than they are handled                         | the newest of each sensor is used, others counted |
+/// | no scan for kSilence                                        | HEARTBEAT is WAITING                              |
 ///
 /// An image that is not used makes the sensor silent for the predictor. A scan costs 1 to 4 ms of CPU time.
 class DetectorNode final : public Node {
