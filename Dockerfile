@@ -1,4 +1,4 @@
-# An image with the package tern: docs/howto/install.md. launch_scripts/image.sh builds it without Docker.
+# An image with the package tern: docs/howto/install.md. .ci/image builds it without Docker.
 FROM debian:12 AS build
 RUN apt-get update && apt-get install -y --no-install-recommends dpkg-dev debhelper
 COPY . /tern
