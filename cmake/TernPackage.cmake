@@ -61,7 +61,7 @@ tern_component(messages ABOUT "Tern's messages as bytes, and logs of flights"
   REQUIRES tern-core)
 tern_component(planner ABOUT "plan(): one certified trajectory for one request"
   LIBRARIES tern_planner tern_planner_heading tern_planner_optimization tern_planner_search tern_planner_global_path tern_planner_semantics
-            tern_planner_safety
+            tern_planner_safety tern_planner_unseen
   HEADERS planner NOT "planner/app"
   REQUIRES tern-core)
 tern_component(perception ABOUT "obstacles in depth pictures"

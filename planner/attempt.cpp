@@ -112,6 +112,7 @@ std::optional<Candidate> certify(const Attempt& attempt, const Points& control_p
   c.hold_s = clear_time_at(swept, attempt.problem.intervals, end, pairs).seconds;
   c.holds = lasts(c.hold_s, attempt.hold_required_s);
   c.clear_s = attempt.problem.interval_s() * attempt.problem.intervals + c.hold_s;
+  c.contact_s = contact_time(attempt.near, c.trajectory);
   c.cost = cost_of(attempt, c.trajectory);
   evaluate(attempt.near, attempt.course, c);
   return c;

@@ -6,6 +6,7 @@
 
 #include "core/world/horizon.h"
 #include "planner/course.h"
+#include "planner/passive_safety.h"
 #include "planner/plan_log.h"
 #include "planner/surroundings.h"
 
@@ -23,8 +24,9 @@ struct Candidate {
   double arrival_s = 0.0;   ///< estimated arrival at the goal after t_s, with exposure (arrival_with_exposure), s
   double progress = 0.0;    ///< share of the distance to the local goal that it covers (progress_share)
   bool approaches = false;  ///< it ends nearer to the local goal than the start, by more than kMinApproach
-  bool meets_declared = false;  ///< committed trajectory: a declared or static obstacle ends clear_s
-  double room = 0.0;            ///< of an evasion: distance from its end to the nearest obstacle's box, m
+  bool meets_declared = false;    ///< committed trajectory: a declared or static obstacle ends clear_s
+  double contact_s = kNoContact;  ///< when an unseen mover may touch the vehicle first (contact_time), s after t_s
+  double room = 0.0;              ///< of an evasion: distance from its end to the nearest obstacle's box, m
   PlanCost cost;
   std::vector<CertificatePlane> certificate;
 };

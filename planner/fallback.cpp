@@ -63,6 +63,7 @@ std::optional<Candidate> check_committed(const Surroundings& near, PlanTools& to
   c.hold_s = std::min(clear.seconds, near.hold.cap(moving_s));
   c.holds = lasts(c.hold_s, near.hold.required(moving_s));
   c.clear_s = moving_s + clear.seconds;
+  c.contact_s = contact_time(near, c.trajectory);
   c.meets_declared = clear.blocker != nullptr && clear.blocker->is_declared_or_static();
   return c;
 }

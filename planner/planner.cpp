@@ -9,6 +9,7 @@
 #include "planner/evasion.h"
 #include "planner/fallback.h"
 #include "planner/incumbent.h"
+#include "planner/nearer_goals.h"
 #include "planner/plan_workspace.h"
 #include "planner/problem/tuning.h"
 #include "planner/schedule.h"
@@ -63,6 +64,8 @@ class Route {
     if (is_blocked()) return Task::Blocked;
     return path_ ? Task::Fly : Task::Brake;
   }
+  /// Returns the course along the path with a local goal of at most this radius. @pre has_path()
+  [[nodiscard]] Course along(double radius) const { return course_along(*path_, goal_.field->cost(), radius, near_); }
   [[nodiscard]] Course course() const {
     return has_path() ? along(kLocalGoalShare * near_.config.sphere_radius_m) : course_in_place(near_);
   }
@@ -73,12 +76,20 @@ class Route {
   }
 
  private:
-  [[nodiscard]] Course along(double radius) const { return course_along(*path_, goal_.field->cost(), radius, near_); }
-
   const GoalProducts& goal_;
   const Surroundings& near_;
   std::optional<std::vector<Vec3>> path_;  ///< nullopt if there is none, or the goal is to hold or stop
 };
+
+PlanReason try_goal(const Surroundings& here, const Course& course, const Trial& trial, const Route& route,
+                    Incumbent& incumbent, PlanTools& tools) {
+  const PlanReason reason = try_durations(here, course, trial, incumbent, tools);
+  if (route.has_path()) {
+    try_nearer_goals(
+        here, course, [&](double radius) { return route.along(radius); }, trial, incumbent, tools);
+  }
+  return reason;
+}
 
 }  // namespace
 
@@ -125,7 +136,7 @@ PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const P
         course = route.nearer(course);
         incumbent.set_course(course);
         [[fallthrough]];
-      case Aim::Goal: reason = try_durations(here, course, trial, incumbent, tools); break;
+      case Aim::Goal: reason = try_goal(here, course, trial, route, incumbent, tools); break;
     }
   }
   return {incumbent.answer(reason), log.statistics};

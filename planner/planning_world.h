@@ -17,6 +17,7 @@
 #include "planner/safety/swept_obstacles.h"
 #include "planner/semantics/semantic_fields.h"
 #include "planner/static_tracks.h"
+#include "planner/unseen/unseen_watch.h"
 
 namespace tern {
 
@@ -102,6 +103,7 @@ struct PlanningWorld {
   std::shared_ptr<const PredictionProducts> predictions;
   std::shared_ptr<const MapProducts> map;
   std::shared_ptr<const GoalProducts> goal;
+  std::shared_ptr<const UnseenKnowledge> unseen;  ///< read with `planner.unseen: passive`; null: nothing is known
 };
 
 }  // namespace tern

@@ -19,6 +19,7 @@ bool ends_where(const Candidate& candidate, const Candidate& other) {
 
 bool departs_from_rest(const Candidate& candidate, const Candidate& committed, const Surroundings& near) {
   if (!is_at_rest(near.request) || candidate.holds != committed.holds || !candidate.approaches) return false;
+  if (candidate.contact_s < committed.contact_s) return false;
   return time_at_rest_s(near.request) > kMaxWaitAtRest || candidate.arrival_s <= committed.arrival_s + kMaxArrivalLoss;
 }
 
@@ -33,12 +34,14 @@ double approach_of(const Candidate& candidate, const Attempt& attempt) {
 bool makes_progress(const Candidate& candidate) { return candidate.progress > kMinProgress; }
 
 bool is_better(const Candidate& candidate, const Candidate& best, const Surroundings& near) {
+  if (candidate.contact_s != best.contact_s) return candidate.contact_s > best.contact_s;
   const bool leads = makes_progress(candidate);
   if (is_at_rest(near.request) && candidate.holds == best.holds && leads != makes_progress(best)) return leads;
   return holds_or_arrives_earlier(candidate, best);
 }
 
 bool is_worse_than_committed(const Candidate& candidate, const Candidate& committed, const Surroundings& near) {
+  if (candidate.contact_s != committed.contact_s) return candidate.contact_s < committed.contact_s;
   if (!holds_or_arrives_earlier(candidate, committed)) return true;
   if (candidate.holds != committed.holds) return false;
   if (near.hold.none_estimated && !candidate.holds && candidate.clear_s < committed.clear_s) return true;
@@ -53,7 +56,7 @@ bool replaces_committed(const Candidate& candidate, const Candidate& committed, 
 }
 
 bool replaces_leaf(const Candidate& optimized, const Candidate& leaf, const Attempt& attempt) {
-  if (leaf.holds && !optimized.holds) return false;
+  if (optimized.contact_s < leaf.contact_s || (leaf.holds && !optimized.holds)) return false;
   const double approach = approach_of(leaf, attempt);
   const bool is_short = attempt.problem.interval < kShortInterval;
   if (is_short && approach > 0.0 && approach_of(optimized, attempt) < kMinProgressKept * approach) return false;

@@ -9,7 +9,9 @@ namespace tern {
 /// Returns whether the candidate covers more than kMinProgress of the distance to the local goal.
 bool makes_progress(const Candidate& candidate);
 
-/// Returns whether a new candidate beats the best one so far. The one that holds is better. With equal holds the
+/// Returns whether a new candidate beats the best one so far. The one that unseen movers may touch later is better;
+/// passively safe ones are never touched (passive_safety.h), and all are equal with `planner.unseen: ignore`. Then the
+/// one that holds is better. With equal holds the
 /// earlier arrival is better. At rest, of two with equal holds, the one that makes progress is better, whatever the
 /// estimated arrivals are.
 bool is_better(const Candidate& candidate, const Candidate& best, const Surroundings& near);
@@ -18,6 +20,7 @@ bool is_better(const Candidate& candidate, const Candidate& best, const Surround
 ///
 /// | condition                                                       | only if                                       |
 /// |-----------------------------------------------------------------|-----------------------------------------------|
+/// | unseen movers may touch it earlier; if later, it is not worse   | planner.unseen: passive                       |
 /// | it does not hold but the committed one does, or it arrives      | –                                             |
 /// | no earlier with an equal hold                                   |                                               |
 /// | it stays clear for a shorter time                               | neither holds; all movers nearby are declared |
@@ -37,9 +40,9 @@ bool is_worse_than_committed(const Candidate& candidate, const Candidate& commit
 /// counted per axis: a plan that begins gently, or strays on a slow axis, may arrive no earlier than staying does.
 bool replaces_committed(const Candidate& candidate, const Candidate& committed, const Surroundings& near);
 
-/// Returns whether an optimized candidate replaces the leaf that it was made from: it holds if the leaf holds, and
-/// arrives at most kMaxArrivalLoss later. For Δt < kShortInterval arrivals say little; there it must also keep
-/// kMinProgressKept of the leaf's approach to the goal.
+/// Returns whether an optimized candidate replaces the leaf that it was made from: it holds if the leaf holds, unseen
+/// movers may touch it no earlier, and it arrives at most kMaxArrivalLoss later. For Δt < kShortInterval arrivals say
+/// little; there it must also keep kMinProgressKept of the leaf's approach to the goal.
 bool replaces_leaf(const Candidate& optimized, const Candidate& leaf, const Attempt& attempt);
 
 /// Returns whether a stop beats another: for the aim Room if it is farther from every box, else if it stays clear

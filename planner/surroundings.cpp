@@ -31,6 +31,13 @@ const SemanticFields* semantics_in_reach(const HorizonRequest& request, const Se
   return differs ? &fields : nullptr;
 }
 
+/// Returns null if unseen movers are ignored.
+const UnseenKnowledge* unseen_of(const PlanningWorld& world, const PlannerConfig& config) {
+  static const UnseenKnowledge kNothing;
+  if (config.unseen == UnseenMode::Ignore) return nullptr;
+  return world.unseen ? world.unseen.get() : &kNothing;
+}
+
 }  // namespace
 
 Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
@@ -56,7 +63,8 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
           hold_demand(request, config, memory.obstacles, look.horizon_s),
           plan_limits,
           per_axis_limits(plan_limits),
-          semantics_in_reach(request, world.map->fields, config)};
+          semantics_in_reach(request, world.map->fields, config),
+          unseen_of(world, config)};
 }
 
 Surroundings at_assurance(const Assurance& assurance, const Surroundings& near, PlanWorkspace& memory) {
@@ -79,7 +87,8 @@ Surroundings at_assurance(const Assurance& assurance, const Surroundings& near, 
           hold_demand(request, near.config, obstacles, near.look.horizon_s),
           near.plan_limits,
           near.pace_limits,
-          near.fields};
+          near.fields,
+          near.unseen};
 }
 
 HorizonProblem horizon_problem(const Surroundings& near, Duration interval) {

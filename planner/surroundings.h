@@ -29,9 +29,10 @@ struct Surroundings {
   StartClearance start;
   LookAhead look;  ///< no plan lasts beyond look.followed_until
   HoldDemand hold;
-  Limits plan_limits;                      ///< the vehicle's, with v_max reduced to velocity_share
-  Limits pace_limits;                      ///< per_axis_limits(plan_limits): durations are made by these
-  const SemanticFields* fields = nullptr;  ///< null if the semantic cost is the same all over the sphere
+  Limits plan_limits;                       ///< the vehicle's, with v_max reduced to velocity_share
+  Limits pace_limits;                       ///< per_axis_limits(plan_limits): durations are made by these
+  const SemanticFields* fields = nullptr;   ///< null if the semantic cost is the same all over the sphere
+  const UnseenKnowledge* unseen = nullptr;  ///< null with `planner.unseen: ignore`
 };
 
 /// Returns whether the committed trajectory has ended by t_s.

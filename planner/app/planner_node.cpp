@@ -59,6 +59,7 @@ PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& conf
       intake_(bus, config, uav, execution.threaded, std::move(places)),
       headings_(bus, uav.heading),
       desk_(bus, configuration_hash) {
+  if (config.unseen == UnseenMode::Passive) unseen_.emplace(bus, config.unseen_movers, uav.start);
   if (config.heading == HeadingMode::Planned) desk_.on_sent([this](const Plan& plan) { headings_.answered(plan); });
   bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& r) { on_request(r); });
   if (execution.threaded) worker_ = std::make_unique<Worker>();
@@ -112,8 +113,15 @@ void PlannerNode::deliver_delayed(UTime now) {
 
 NodeHealth PlannerNode::health() const {
   const std::string missing = intake_.missing();
-  if (missing.empty()) return {ProcessState::Ready, intake_.blocked()};
-  return {ProcessState::Waiting, missing};
+  if (!missing.empty()) return {ProcessState::Waiting, missing};
+  const std::string blocked = intake_.blocked();
+  return {ProcessState::Ready, blocked.empty() && unseen_ ? unseen_->missing() : blocked};
+}
+
+PlanningWorld PlannerNode::world_now() const {
+  PlanningWorld world = intake_.snapshot();
+  if (unseen_) world.unseen = unseen_->snapshot();
+  return world;
 }
 
 void PlannerNode::on_request(const HorizonRequest& request) {
@@ -122,6 +130,7 @@ void PlannerNode::on_request(const HorizonRequest& request) {
   last_request_ = request.header;
   if (now >= request.deadline) return bus_.count_late(channels::kHorizonRequest);
   intake_.set_vehicle(request);
+  if (unseen_) unseen_->set_vehicle(request);
   desk_.open(request, now);
   waiting_ = request;
   waiting_since_ = now;
@@ -132,12 +141,12 @@ void PlannerNode::on_request(const HorizonRequest& request) {
 void PlannerNode::start_planning(UTime now) {
   const UTime arrived = waiting_since_;
   if (!execution_.threaded) {
-    if (!delayed_) work_in_virtual_time(*std::exchange(waiting_, std::nullopt), intake_.snapshot(), arrived);
+    if (!delayed_) work_in_virtual_time(*std::exchange(waiting_, std::nullopt), world_now(), arrived);
     return;
   }
   const Duration allowed = waiting_->deadline - arrived;
-  const bool taken = worker_->try_start(
-      [this, request = *waiting_, world = intake_.snapshot(), arrived] { work(request, world, arrived); });
+  const bool taken =
+      worker_->try_start([this, request = *waiting_, world = world_now(), arrived] { work(request, world, arrived); });
   if (!taken) return;
   stuck_at_ = now + std::max(allowed * 2, kStuckAfter);
   waiting_.reset();

@@ -7,6 +7,7 @@
 
 #include "core/base/knobs.h"
 #include "core/splines/hull_basis.h"
+#include "planner/unseen/unseen_movers.h"
 
 namespace tern {
 
@@ -102,6 +103,8 @@ struct PlannerConfig {
   double goal_tolerance_m = 0.05;
   bool publish_search = false;
   HeadingMode heading = HeadingMode::Along;
+  UnseenMode unseen = UnseenMode::Ignore;
+  UnseenMovers unseen_movers;
   SearchConfig search;
   OptimizationConfig optimization;
 
@@ -134,6 +137,10 @@ struct PlannerConfig {
       "publish SEARCH_VIEW after each answer: the nodes of the last search, for tern-viewer. Answers are the same");
     v("heading", heading, KnobWords<HeadingMode>{{"along", HeadingMode::Along}, {"planned", HeadingMode::Planned}},
       "where the vehicle looks: along its flight, or where PLAN_HEADING points, which is then sent with each plan");
+    v("unseen", unseen, KnobWords<UnseenMode>{{"ignore", UnseenMode::Ignore}, {"passive", UnseenMode::Passive}},
+      "passive: plans come to rest before a mover that no sensor has seen can touch the vehicle, as far as "
+      "OBSTACLE_SIGHTINGS show; PLAN_UNSEEN is then sent with each plan");
+    v("unseen_movers", unseen_movers);
     v("search", search);
     v("optimization", optimization);
   }

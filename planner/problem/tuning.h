@@ -99,6 +99,17 @@ inline constexpr double kMinApproach = 1e-6;
 /// Once a candidate that holds ends this near to the local goal, no longer duration is tried, m.
 inline constexpr double kAtLocalGoal = 1.0;
 
+// ---- Nearer local goals (nearer_goals.h)
+
+/// Ratio between successive radii, and the least of them, m.
+inline constexpr double kNearerStep = 0.75;
+inline constexpr double kNearestGoal = 0.08;
+/// Limits of radii that are searched, and of durations for each.
+inline constexpr int kNearerTries = 3;
+inline constexpr std::size_t kNearerDurations = 2;
+/// Number of steps in which the way to a local goal is tested before it is searched.
+inline constexpr int kNearerSamples = 16;
+
 // ---- Reduced assurance (assurance.h, schedule.h, stop_rule.h)
 
 /// How long α at the full level grows, in side-step times.

@@ -14,6 +14,7 @@ struct SightFan {
   double first = 0.0;                             ///< azimuth of the first sector's start, about W's z from W's x, rad
   double width = 0.0;                             ///< of a sector, rad, > 0
   double nearest = 0.0;                           ///< nothing is known below this distance, m
+  double age_s = 0.0;                             ///< it was seen this long before the field's time, s, ≥ 0
   std::vector<double> reach;                      ///< per sector, anticlockwise, m; 0: nothing is known
 
   /// True if the disc lies in the fan, beyond `nearest` and within the reach of every sector that it touches.

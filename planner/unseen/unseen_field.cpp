@@ -16,6 +16,25 @@ double squared_gap(int away) {
   return gap * gap;
 }
 
+/// Leaves of each run of ones the cells that have at least `length` − 1 ones before them.
+void keep_runs(std::uint8_t* cells, int count, int stride, int length) {
+  int run = 0;
+  for (int k = 0; k < count; ++k, cells += stride) {
+    run = *cells != 0 ? run + 1 : 0;
+    *cells = run >= length ? 1 : 0;
+  }
+}
+
+/// Sets the `length` − 1 cells before each one.
+void mark_runs(std::uint8_t* cells, int count, int stride, int length) {
+  int left = 0;
+  for (int k = count - 1; k >= 0; --k) {
+    std::uint8_t& cell = cells[static_cast<std::ptrdiff_t>(k) * stride];
+    left = cell != 0 ? length : left - 1;
+    cell = left > 0 ? 1 : 0;
+  }
+}
+
 }  // namespace
 
 UnseenField::UnseenField(const UnseenGrid& grid, double max_speed, double least_width)
@@ -39,34 +58,51 @@ void UnseenField::clear_ball(const Eigen::Vector2d& centre, double radius) {
   }
 }
 
+void UnseenField::shift(int dx, int dy) {
+  std::vector<double>& old = rows_;
+  old = d_;
+  for (int iy = 0; iy < grid_.ny; ++iy) {
+    for (int ix = 0; ix < grid_.nx; ++ix) {
+      const int x = ix + dx, y = iy + dy;
+      const bool was_inside = x >= 0 && y >= 0 && x < grid_.nx && y < grid_.ny;
+      d_[index(ix, iy)] = was_inside ? old[index(x, y)] : 0.0;
+    }
+  }
+  grid_.origin += grid_.cell * Eigen::Vector2d(dx, dy);
+}
+
 void UnseenField::find_candidates(const std::vector<SightFan>& fans, const std::vector<std::uint8_t>& filled) {
   const double k = kHalfDiagonal * grid_.cell;
   for (int iy = 0; iy < grid_.ny; ++iy) {
     for (int ix = 0; ix < grid_.nx; ++ix) {
       const std::size_t i = index(ix, iy);
-      const auto sees = [&](const SightFan& fan) { return fan.sees_empty(grid_.centre(ix, iy), k); };
+      const auto sees = [&](const SightFan& fan) {
+        return fan.sees_empty(grid_.centre(ix, iy), k + max_speed_ * fan.age_s);
+      };
       const bool taken = !filled.empty() && filled[i] != 0;
       candidate_[i] = !taken && d_[i] <= k && std::none_of(fans.begin(), fans.end(), sees) ? 1 : 0;
     }
   }
 }
 
+/// Separable: squares of m × m candidates are found as runs of m along rows and then along columns, by their last cell.
+/// Each such cell marks the m cells before it, along columns and then along rows. Beyond the grid all cells count.
 void UnseenField::keep_blocks() {
-  std::fill(kept_.begin(), kept_.end(), std::uint8_t{0});
-  const auto may_hold = [&](int ix, int iy) {
-    const bool inside = ix >= 0 && iy >= 0 && ix < grid_.nx && iy < grid_.ny;
-    return !inside || candidate_[index(ix, iy)] != 0;
-  };
-  for (int iy = 1 - block_; iy < grid_.ny; ++iy) {
-    for (int ix = 1 - block_; ix < grid_.nx; ++ix) {
-      bool whole = true;
-      for (int k = 0; whole && k < block_ * block_; ++k) whole = may_hold(ix + k % block_, iy + k / block_);
-      if (!whole) continue;
-      for (int k = 0; k < block_ * block_; ++k) {
-        const int x = ix + k % block_, y = iy + k / block_;
-        if (x >= 0 && y >= 0 && x < grid_.nx && y < grid_.ny) kept_[index(x, y)] = 1;
-      }
-    }
+  if (block_ == 1) {
+    kept_ = candidate_;
+    return;
+  }
+  const int pad = block_ - 1, columns = grid_.nx + 2 * pad, rows = grid_.ny + 2 * pad;
+  padded_.assign(idx(columns * rows), 1);
+  for (int iy = 0; iy < grid_.ny; ++iy) {
+    std::copy_n(candidate_.begin() + iy * grid_.nx, grid_.nx, padded_.begin() + (iy + pad) * columns + pad);
+  }
+  for (int y = 0; y < rows; ++y) keep_runs(&padded_[idx(y * columns)], columns, 1, block_);
+  for (int x = 0; x < columns; ++x) keep_runs(&padded_[idx(x)], rows, columns, block_);
+  for (int x = 0; x < columns; ++x) mark_runs(&padded_[idx(x)], rows, columns, block_);
+  for (int y = 0; y < rows; ++y) mark_runs(&padded_[idx(y * columns)], columns, 1, block_);
+  for (int iy = 0; iy < grid_.ny; ++iy) {
+    std::copy_n(padded_.begin() + (iy + pad) * columns + pad, grid_.nx, kept_.begin() + iy * grid_.nx);
   }
 }
 
@@ -75,22 +111,28 @@ void UnseenField::raise() {
   const int reach = static_cast<int>(std::ceil(kFarthest / grid_.cell)) + 1;
   const double most = kFarthest / grid_.cell * (kFarthest / grid_.cell);
   for (int iy = 0; iy < grid_.ny; ++iy) {
+    int away = 0;
     for (int ix = 0; ix < grid_.nx; ++ix) {
-      double least = std::min(most, squared_gap(std::min(ix + 1, grid_.nx - ix)));
-      for (int x = std::max(0, ix - reach); x <= std::min(grid_.nx - 1, ix + reach); ++x) {
-        if (kept_[index(x, iy)] != 0) least = std::min(least, squared_gap(x - ix));
-      }
-      rows_[index(ix, iy)] = least;
+      away = kept_[index(ix, iy)] != 0 ? 0 : away + 1;
+      rows_[index(ix, iy)] = away;
+    }
+    away = 0;
+    for (int ix = grid_.nx - 1; ix >= 0; --ix) {
+      double& row = rows_[index(ix, iy)];
+      away = kept_[index(ix, iy)] != 0 ? 0 : away + 1;
+      row = std::min(most, squared_gap(std::min(away, static_cast<int>(row))));
     }
   }
   for (int iy = 0; iy < grid_.ny; ++iy) {
+    least_.assign(idx(grid_.nx), std::min(most, squared_gap(std::min(iy + 1, grid_.ny - iy))));
+    for (int y = std::max(0, iy - reach); y <= std::min(grid_.ny - 1, iy + reach); ++y) {
+      const double gap = squared_gap(y - iy);
+      const double* row = &rows_[index(0, y)];
+      for (int ix = 0; ix < grid_.nx; ++ix) least_[idx(ix)] = std::min(least_[idx(ix)], row[ix] + gap);
+    }
     for (int ix = 0; ix < grid_.nx; ++ix) {
-      double least = std::min(most, squared_gap(std::min(iy + 1, grid_.ny - iy)));
-      for (int y = std::max(0, iy - reach); y <= std::min(grid_.ny - 1, iy + reach); ++y) {
-        least = std::min(least, rows_[index(ix, y)] + squared_gap(y - iy));
-      }
       double& d = d_[index(ix, iy)];
-      d = std::max(d, std::sqrt(least) * grid_.cell);
+      d = std::max(d, std::sqrt(least_[idx(ix)]) * grid_.cell);
     }
   }
 }

@@ -28,7 +28,8 @@ struct UnseenGrid {
 ///
 /// 1. Time: D ← max(0, D − w Δt). A mover comes nearer by at most w Δt.
 /// 2. A cell is a candidate unless a picture shows it to be empty, something known fills it, or D > k. Here k is half
-///    the cell's diagonal. Only candidates hold parts of movers.
+///    the cell's diagonal. Only candidates hold parts of movers. A picture that is older by some age must show all
+///    within w · age of the cell to be empty.
 /// 3. A candidate counts only within a block of m × m candidates, m = ⌈least_width / h⌉: a mover touches all of them.
 /// 4. D ← max(D, distance to the nearest such cell's square), at most kFarthest. Beyond the grid, all cells count.
 ///
@@ -40,7 +41,9 @@ class UnseenField {
 
   /// States that no mover is within this ball at present, as at take-off.
   void clear_ball(const Eigen::Vector2d& centre, double radius);
-  /// Steps 1 to 4 for pictures that were taken together, Δt seconds after the last ones.
+  /// Moves the window by whole cells; nobody is known to be absent in the cells that enter it.
+  void shift(int dx, int dy);
+  /// Steps 1 to 4 for pictures of one time, Δt seconds after the last ones, and for late ones with their ages.
   /// @param filled  cells that something known fills entirely, nx·ny flags, row by row; empty: none
   void update(double dt_s, const std::vector<SightFan>& fans, const std::vector<std::uint8_t>& filled = {});
 
@@ -64,8 +67,8 @@ class UnseenField {
   double max_speed_;
   int block_;  ///< m
   std::vector<double> d_;
-  std::vector<std::uint8_t> candidate_, kept_;
-  std::vector<double> rows_;
+  std::vector<std::uint8_t> candidate_, kept_, padded_;
+  std::vector<double> rows_, least_;
 };
 
 /// Returns the time, s after `from`, up to which no unseen mover can touch the vehicle on this trajectory. It is the

@@ -189,6 +189,7 @@ Audit audit_flight(const FlightRecord& record) {
   audit.checks.push_back(check_continuity(record));
   audit.checks.push_back(check_commitment(record));
   if (!record.headings.empty()) audit.checks.push_back(check_headings(record));
+  if (!record.frames.empty()) audit.checks.push_back(check_unseen(record));
   audit.checks.push_back(check_tube(record, audit));
   audit.checks.push_back(check_certificates(record));
   audit.checks.push_back(check_holds(record));

@@ -98,6 +98,8 @@ Check check_limits(const FlightRecord& record);
 Check check_continuity(const FlightRecord& record);
 Check check_commitment(const FlightRecord& record);
 Check check_headings(const FlightRecord& record);
+/// Recomputes the field of unseen movers. @pre the log has frames of OBSTACLE_SIGHTINGS
+Check check_unseen(const FlightRecord& record);
 Check check_tube(const FlightRecord& record, Audit& audit);
 Check check_certificates(const FlightRecord& record);
 Check check_holds(const FlightRecord& record);

@@ -44,7 +44,14 @@ void declare(const Track& track, UTime made_at, std::vector<DeclaredPiece>& piec
 class Reading {
  public:
   explicit Reading(FlightRecord& record) : record_(record) {
-    keep(channels::kHorizonRequest, record.requests);
+    log_.on(channels::kHorizonRequest, [this](const HorizonRequest& request, std::int64_t) {
+      record_.frames_before.emplace(request.header.name, record_.frames.size());
+      record_.requests.push_back(request);
+    });
+    log_.on(channels::kObstacleSightings, [this](const SightingSet& frame, std::int64_t) {
+      record_.frames.push_back(frame);
+      record_.frames.back().sightings.clear();
+    });
     keep(channels::kObstacleObservations, record.observations);
     keep(channels::kPlan, record.plans);
     keep(channels::kPlanTiming, record.timings);

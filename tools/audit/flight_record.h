@@ -17,6 +17,7 @@
 #include "core/world/observation.h"
 #include "core/world/plan_heading.h"
 #include "core/world/region.h"
+#include "core/world/sighting.h"
 #include "core/world/track.h"
 #include "core/world/vehicle_status.h"
 #include "core/world/voxel_map.h"
@@ -61,8 +62,10 @@ struct FlightRecord {
   std::map<std::int64_t, ObstacleHistory> truth;  ///< by obstacle
   /// Declared motions by obstacle: at each time the newest declaration; no overlaps, ascending.
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;
-  std::vector<ObservationSet> observations;  ///< OBSTACLE_OBSERVATIONS of all sensors, by time
-  std::vector<HorizonRequest> requests;      ///< in the log's order, like every list below
+  std::vector<ObservationSet> observations;          ///< OBSTACLE_OBSERVATIONS of all sensors, by time
+  std::vector<HorizonRequest> requests;              ///< in the log's order, like every list below
+  std::vector<SightingSet> frames;                   ///< OBSTACLE_SIGHTINGS, without their sightings
+  std::map<MessageName, std::size_t> frames_before;  ///< how many of them are logged before each request
   std::vector<Plan> plans;
   std::vector<PlanTiming> timings;
   std::vector<PlanHeading> headings;

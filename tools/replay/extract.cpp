@@ -94,7 +94,7 @@ class ExtractWriter {
       }
     }
     for (const auto& [name, goal] : extract_.inputs.goals) put(channels::kGoal, goal);
-    for (const auto& [name, request] : extract_.inputs.requests) put(channels::kHorizonRequest, request);
+    write_requests();
     for (const TrackSet& set : extract_.predictions) {
       for (const TrackSet& batch : split_batches(set)) put(channels::kPredictions, batch);
       write_answers({set.header.name.sender_epoch_us, set.batch.set});
@@ -106,6 +106,20 @@ class ExtractWriter {
   template <class T>
   void put(const Channel<T>& channel, const T& message) {
     sink_({0, now_us_, channel.name, encode(message)});
+  }
+
+  /// Requests follow the frames that were there before them, since a field of unseen movers is made from all of those.
+  void write_requests() {
+    std::multimap<std::size_t, const HorizonRequest*> in_order;
+    for (const auto& [name, request] : extract_.inputs.requests) {
+      const auto before = extract_.inputs.frames_before.find(name);
+      in_order.emplace(before == extract_.inputs.frames_before.end() ? 0 : before->second, &request);
+    }
+    std::size_t written = 0;
+    for (const auto& [frames_before, request] : in_order) {
+      for (; written < frames_before; ++written) put(channels::kObstacleSightings, extract_.inputs.frames[written]);
+      put(channels::kHorizonRequest, *request);
+    }
   }
 
   /// One per planner process, since the promise depends on the process's platform.

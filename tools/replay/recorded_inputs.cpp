@@ -1,5 +1,6 @@
 #include "tools/replay/recorded_inputs.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "flight_log/track_sets.h"
@@ -40,6 +41,28 @@ void attach(const std::map<PlanKey, Message>& messages, std::optional<Message> R
   }
 }
 
+/// Returns whether any planner kept a field of unseen movers.
+bool watches_unseen(const RecordedInputs& inputs) {
+  return std::ranges::any_of(inputs.configurations, [](const auto& known) {
+    return known.second.yaml.find("unseen: passive") != std::string::npos;
+  });
+}
+
+/// Reads the views of all frames of OBSTACLE_SIGHTINGS.
+Result<void> read_frames(const std::string& path, const std::string& suffix, RecordedInputs& inputs) {
+  FlightLog log(suffix);
+  log.on(channels::kObstacleSightings, [&](const SightingSet& frame, std::int64_t) {
+    inputs.frames.push_back(frame);
+    inputs.frames.back().sightings.clear();
+  });
+  log.on(channels::kHorizonRequest, [&](const HorizonRequest& request, std::int64_t) {
+    inputs.frames_before.emplace(request.header.name, inputs.frames.size());
+  });
+  auto contents = log.read(path);
+  if (!contents) return tl::make_unexpected(contents.error());
+  return {};
+}
+
 }  // namespace
 
 Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::string& suffix) {
@@ -67,6 +90,9 @@ Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::
   });
   auto contents = log.read(path);
   if (!contents) return tl::make_unexpected(contents.error());
+  if (watches_unseen(inputs)) {
+    if (auto read = read_frames(path, suffix, inputs); !read) return tl::make_unexpected(read.error());
+  }
   attach(timings, &RecordedPlan::timing, inputs.plans);
   attach(headings, &RecordedPlan::heading, inputs.plans);
   inputs.log = std::move(*contents);

@@ -13,6 +13,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/plan_heading.h"
+#include "core/world/sighting.h"
 #include "core/world/track.h"
 #include "core/world/voxel_map.h"
 #include "flight_log/flight_log.h"
@@ -35,6 +36,9 @@ struct RecordedInputs {
   std::map<std::uint64_t, VoxelMap> maps;                       ///< complete ones, by version
   std::map<std::uint64_t, ConfigurationReport> configurations;  ///< one of each hash
   std::map<std::int64_t, std::string> platforms;                ///< by the sender epoch of any process
+  // Only if a planner had `planner.unseen: passive`:
+  std::vector<SightingSet> frames;                   ///< of OBSTACLE_SIGHTINGS, without sightings, in the log's order
+  std::map<MessageName, std::size_t> frames_before;  ///< how many of them are logged before each request
   LogContents log;
 };
 

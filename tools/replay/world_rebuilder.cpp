@@ -146,6 +146,17 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
   return std::make_shared<const GoalProducts>(GoalProducts{goal->second, key, std::move(field), from});
 }
 
+std::shared_ptr<const UnseenKnowledge> WorldRebuilder::unseen_of(const Plan& plan, const Configuration& configuration) {
+  const auto before = inputs_.frames_before.find(plan.inputs.request);
+  const std::size_t until = before == inputs_.frames_before.end() ? 0 : before->second;
+  if (!watch_ || until < next_frame_) {
+    watch_.emplace(configuration.config.unseen_movers, configuration.uav.start);
+    next_frame_ = 0;
+  }
+  for (; next_frame_ < until; ++next_frame_) watch_->add(inputs_.frames[next_frame_]);
+  return std::make_shared<const UnseenKnowledge>(watch_->knowledge());
+}
+
 Result<PlanProblem> WorldRebuilder::problem_of(const Plan& plan) {
   const PlanInputs& names = plan.inputs;
   PlanProblem problem;
@@ -164,6 +175,9 @@ Result<PlanProblem> WorldRebuilder::problem_of(const Plan& plan) {
           fmt::format("prediction set {} of sender {}", names.prediction_set, names.predictions.sender_epoch_us));
     }
     problem.world.predictions = predictions_;
+  }
+  if (problem.config.unseen == UnseenMode::Passive) {
+    problem.world.unseen = unseen_of(plan, **configuration);
   }
   if (names.map_version != 0) {
     auto map = map_of(names.map_version, **configuration);

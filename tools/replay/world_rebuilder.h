@@ -49,6 +49,10 @@ class WorldRebuilder {
   void add(TrackSet set);
 
   /// Returns the inputs of a plan. @return an Error that names the inputs that the log lacks
+  ///
+  /// A plan names no frames of OBSTACLE_SIGHTINGS. Its field of unseen movers is made from those that the log has
+  /// before its request. In a live flight, a frame that came within a millisecond of the request may be on the other
+  /// side.
   Result<PlanProblem> problem_of(const Plan& plan);
 
  private:
@@ -66,6 +70,7 @@ class WorldRebuilder {
   Result<Configuration*> configuration_of(std::uint64_t hash);
   Result<std::shared_ptr<const MapProducts>> map_of(std::uint64_t version, Configuration& configuration);
   Result<std::shared_ptr<const GoalProducts>> goal_of(const PlanInputs& names, Configuration& configuration);
+  std::shared_ptr<const UnseenKnowledge> unseen_of(const Plan& plan, const Configuration& configuration);
   std::shared_ptr<const GoalField> field_of(const GoalFieldKey& key, const Vec3& start,
                                             const std::shared_ptr<const MapProducts>& map,
                                             const std::vector<Box>& statics);
@@ -76,6 +81,8 @@ class WorldRebuilder {
   std::vector<Field> fields_;                              ///< the newest last
   std::shared_ptr<const PredictionProducts> predictions_;
   std::map<std::pair<std::int64_t, std::int64_t>, StaticTracks> memories_;  ///< by sender epoch and first set
+  std::optional<UnseenWatch> watch_;                                        ///< with the frames before next_frame_
+  std::size_t next_frame_ = 0;
   /// The static tracks that plans name, by digest; nullopt: not seen yet.
   std::map<std::uint64_t, std::optional<std::vector<Box>>> statics_;
 };

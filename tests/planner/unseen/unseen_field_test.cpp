@@ -60,7 +60,7 @@ struct Place {
   }
   [[nodiscard]] SightFan look(const Vec2& eye, double yaw, double half, double range) const {
     constexpr int kSectors = 90;
-    SightFan fan{eye, yaw - half, 2.0 * half / kSectors, 0.2, {}};
+    SightFan fan{eye, yaw - half, 2.0 * half / kSectors, 0.2, 0.0, {}};
     for (int k = 0; k < kSectors; ++k) {
       double reach = range;
       for (int r = 0; r <= 4; ++r)
@@ -216,6 +216,59 @@ TEST(UnseenField, AMoverDoesNotFitIntoAGapNarrowerThanItself) {
   wide.update(0.0, {}, filled);
   EXPECT_EQ(narrow.at(16, 16), 0.0);
   EXPECT_GT(wide.at(16, 16), 3.0);
+}
+
+/// Blocks of candidates by the definition: all places of the block, one after the other.
+TEST(UnseenField, KeepsExactlyTheCandidatesThatABlockOfThemCovers) {
+  Rng rng(4);
+  for (int round = 0; round < 12; ++round) {
+    const UnseenGrid grid{Vec2(0, 0), 0.25, 20 + round, 26 - round};
+    const int m = 1 + round % 4;
+    std::vector<std::uint8_t> filled;
+    for (int k = 0; k < grid.nx * grid.ny; ++k) filled.push_back(rng.uniform() < 0.25 ? 1 : 0);
+    UnseenField field(grid, 1.0, m * grid.cell);
+    field.update(0.0, {}, filled);
+    const auto may_hold = [&](int x, int y) {
+      const bool inside = x >= 0 && y >= 0 && x < grid.nx && y < grid.ny;
+      return !inside || filled[static_cast<std::size_t>(y * grid.nx + x)] == 0;
+    };
+    const auto is_covered = [&](int ix, int iy) {
+      for (int k = 0; k < m * m; ++k) {
+        bool whole = true;
+        for (int j = 0; whole && j < m * m; ++j) whole = may_hold(ix - k % m + j % m, iy - k / m + j / m);
+        if (whole) return true;
+      }
+      return false;
+    };
+    for (int iy = 0; iy < grid.ny; ++iy) {
+      for (int ix = 0; ix < grid.nx; ++ix) {
+        ASSERT_EQ(field.at(ix, iy) == 0.0, is_covered(ix, iy)) << "round " << round << " at " << ix << ", " << iy;
+      }
+    }
+  }
+}
+
+TEST(UnseenField, ShiftedByWholeCellsKeepsWhatItKnewInItsPlace) {
+  UnseenField field({Vec2(-4, -4), 0.25, 32, 32}, 1.0, 0.0);
+  field.clear_ball(Vec2(1, 0.5), 2.0);
+  const UnseenField before = field;
+  field.shift(6, -3);
+  EXPECT_EQ(field.grid().origin, Vec2(-4 + 6 * 0.25, -4 - 3 * 0.25));
+  for (double x = -0.9; x < 3.0; x += 0.37)
+    EXPECT_NEAR(field.distance(Vec2(x, 0.4)), before.distance(Vec2(x, 0.4)), 1e-12);
+  EXPECT_EQ(field.distance(Vec2(5, 0)), 0.0) << "nobody is known to be absent in cells that enter the window";
+}
+
+TEST(UnseenField, ALatePictureShowsLessByTheWayThatMoversGoInItsAge) {
+  const UnseenGrid grid{Vec2(-4, -4), 0.25, 32, 32};
+  SightFan fan{Vec2(0, 0), -3.14159265, 2.0 * std::numbers::pi / 90, 0.0, 0.0, std::vector<double>(90, 3.0)};
+  UnseenField fresh(grid, 1.0, 0.0), late(grid, 1.0, 0.0);
+  fresh.update(0.0, {fan});
+  fan.age_s = 0.5;
+  late.update(0.0, {fan});
+  const Vec2 at(1.0, 0.0);
+  EXPECT_NEAR(late.distance(at), fresh.distance(at) - 0.5, 0.3);
+  EXPECT_LT(late.distance(at), fresh.distance(at) - 0.2);
 }
 
 /// The squares of all cells that may hold somebody, one after the other.
