@@ -5,11 +5,10 @@
 
 namespace tern {
 
-/// Returns when an unseen mover may touch the vehicle first while it moves on this trajectory, s after t_s
-/// (first_contact). It is kNoContact if none can before the vehicle rests, and with `planner.unseen: ignore`.
+/// Returns the time to contact (first_contact) of a trajectory, s after t_s; kNoContact with `planner.unseen: ignore`.
 ///
-/// A vehicle at rest is passively safe. A vehicle that has rested for longer than UnseenMovers::wait_s is not, so that
-/// it departs with the longest time to contact where no passively safe plan exists.
+/// A vehicle at rest is passively safe for UnseenMovers::wait_s. After that it departs with the longest time to contact
+/// if no plan is passively safe.
 /// @param trajectory  the committed one, or one that starts at t_s
 double contact_time(const Surroundings& near, const TimedSpline& trajectory);
 

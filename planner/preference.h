@@ -11,9 +11,8 @@ bool makes_progress(const Candidate& candidate);
 
 /// Returns whether a new candidate beats the best one so far. The one that unseen movers may touch later is better;
 /// passively safe ones are never touched (passive_safety.h), and all are equal with `planner.unseen: ignore`. Then the
-/// one that holds is better. With equal holds the
-/// earlier arrival is better. At rest, of two with equal holds, the one that makes progress is better, whatever the
-/// estimated arrivals are.
+/// one that holds is better. With equal holds the earlier arrival is better. At rest, of two with equal holds, the one
+/// that makes progress is better, whatever the estimated arrivals are.
 bool is_better(const Candidate& candidate, const Candidate& best, const Surroundings& near);
 
 /// Returns whether a new candidate is worse than the committed trajectory:
@@ -40,8 +39,8 @@ bool is_worse_than_committed(const Candidate& candidate, const Candidate& commit
 /// counted per axis: a plan that begins gently, or strays on a slow axis, may arrive no earlier than staying does.
 bool replaces_committed(const Candidate& candidate, const Candidate& committed, const Surroundings& near);
 
-/// Returns whether an optimized candidate replaces the leaf that it was made from: it holds if the leaf holds, unseen
-/// movers may touch it no earlier, and it arrives at most kMaxArrivalLoss later. For Δt < kShortInterval arrivals say
+/// Returns whether an optimized candidate replaces the leaf that it was made from. It holds if the leaf holds, and
+/// arrives at most kMaxArrivalLoss later; unseen movers may touch it no earlier. For Δt < kShortInterval arrivals say
 /// little; there it must also keep kMinProgressKept of the leaf's approach to the goal.
 bool replaces_leaf(const Candidate& optimized, const Candidate& leaf, const Attempt& attempt);
 

@@ -139,7 +139,7 @@ struct PlannerConfig {
       "where the vehicle looks: along its flight, or where PLAN_HEADING points, which is then sent with each plan");
     v("unseen", unseen, KnobWords<UnseenMode>{{"ignore", UnseenMode::Ignore}, {"passive", UnseenMode::Passive}},
       "passive: plans come to rest before a mover that no sensor has seen can touch the vehicle, as far as "
-      "OBSTACLE_SIGHTINGS show; PLAN_UNSEEN is then sent with each plan");
+      "OBSTACLE_SIGHTINGS show");
     v("unseen_movers", unseen_movers);
     v("search", search);
     v("optimization", optimization);

@@ -14,7 +14,7 @@
 
 namespace tern {
 
-/// What is known about unseen movers at one time.
+/// The knowledge about unseen movers at one time.
 struct UnseenKnowledge {
   std::optional<UnseenField> field;  ///< nullopt before the first picture: nothing is known
   UTime at;                          ///< time of the field, vehicle's clock
@@ -26,8 +26,8 @@ struct UnseenKnowledge {
 /// The time of contact of a passively safe trajectory, s.
 inline constexpr double kNoContact = std::numeric_limits<double>::infinity();
 
-/// Returns when an unseen mover may touch the vehicle first while it moves on this trajectory, s after t_s; kNoContact
-/// if none can before the vehicle rests (clear_until). Before the first picture nothing is known, and it is 0.
+/// Returns the time to contact: when an unseen mover may touch the moving vehicle first on this trajectory, s after
+/// t_s. It is kNoContact if none can before the vehicle rests (clear_until). Before the first picture it is 0.
 /// @param radius  of the body about its vertical axis, m
 double first_contact(const UnseenKnowledge& known, const TimedSpline& trajectory, UTime t_s, double radius);
 
