@@ -78,7 +78,7 @@ void try_nearer_goals(const Surroundings& near, const Course& course, const std:
     evaluate(near, course, *found);
     found->progress = progress;
     incumbent.offer(std::move(*found));
-    if (is_passively_safe(incumbent.best())) return;
+    if (is_passively_safe(incumbent.best()) && incumbent.best()->progress >= kMinSettledProgress) return;
   }
 }
 

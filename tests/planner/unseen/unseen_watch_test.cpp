@@ -85,10 +85,14 @@ struct Hidden {
   bool is_out = false;  ///< seen
 
   [[nodiscard]] Square body() const { return {p - Vec2::Constant(0.2), p + Vec2::Constant(0.2)}; }
-  /// Generous: some that a frame would not show are out as well.
+  /// Any part that a frame from there would show: points of the outline, nearer to each other than a cell's edge.
   void look_from(const Vec2& eye, const Corridor& corridor) {
-    const Vec2 to = p - eye;
-    is_out = is_out || corridor.range(eye, std::atan2(to.y(), to.x())) > to.norm() - 0.3;
+    for (int k = 0; k < 16 && !is_out; ++k) {
+      const double along = 0.1 * (k % 4) - 0.2;
+      const Vec2 sides[] = {{along, -0.2}, {0.2, along}, {-along, 0.2}, {-0.2, -along}};
+      const Vec2 to = p + sides[k / 4] - eye;
+      is_out = corridor.range(eye, std::atan2(to.y(), to.x())) > to.norm();
+    }
   }
   /// Along the wall to the gap, then at the vehicle.
   void walk(const Vec2& vehicle, const Corridor& corridor, double way) {
@@ -128,6 +132,7 @@ TEST(UnseenWatch, NoAdversaryBehindAWallIsNearerThanItSaysByLateFramesOfTwoSenso
     Rng rng(seed);
     UnseenMovers movers;
     movers.max_speed_mps = rng.uniform(0.5, 2.5);
+    movers.clear_radius_m = 0.5;  // they begin behind the wall, beyond that
     const Corridor corridor(rng);
     Frames frames(rng);
     std::vector<Hidden> all;
