@@ -95,14 +95,14 @@ void UnseenField::keep_blocks() {
   const int pad = block_ - 1, columns = grid_.nx + 2 * pad, rows = grid_.ny + 2 * pad;
   padded_.assign(idx(columns * rows), 1);
   for (int iy = 0; iy < grid_.ny; ++iy) {
-    std::copy_n(candidate_.begin() + iy * grid_.nx, grid_.nx, padded_.begin() + (iy + pad) * columns + pad);
+    std::copy_n(&candidate_[index(0, iy)], grid_.nx, &padded_[idx((iy + pad) * columns + pad)]);
   }
   for (int y = 0; y < rows; ++y) keep_runs(&padded_[idx(y * columns)], columns, 1, block_);
   for (int x = 0; x < columns; ++x) keep_runs(&padded_[idx(x)], rows, columns, block_);
   for (int x = 0; x < columns; ++x) mark_runs(&padded_[idx(x)], rows, columns, block_);
   for (int y = 0; y < rows; ++y) mark_runs(&padded_[idx(y * columns)], columns, 1, block_);
   for (int iy = 0; iy < grid_.ny; ++iy) {
-    std::copy_n(padded_.begin() + (iy + pad) * columns + pad, grid_.nx, kept_.begin() + iy * grid_.nx);
+    std::copy_n(&padded_[idx((iy + pad) * columns + pad)], grid_.nx, &kept_[index(0, iy)]);
   }
 }
 
