@@ -49,7 +49,7 @@ inline constexpr double kBendIgnored = 0.15;
 inline constexpr int kSmallerSteps = 3;
 inline constexpr double kSmallerStep = 3.0;
 /// A candidate makes progress if it covers more than this share of the distance to the local goal.
-inline constexpr double kMinProgress = 0.1;
+inline constexpr double kMinProgress = 0.01;
 
 // ---- The search's lengths for near local goals (look_ahead.h)
 
