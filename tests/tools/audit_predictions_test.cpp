@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "core/splines/piecewise_cubic.h"
 #include "core/world/alpha_share.h"
 #include "tools/audit/audit.h"
+#include "tools/audit/covering.h"
 #include "tools/audit/pairing.h"
 #include "tools/audit/plan_case.h"
 
@@ -184,6 +186,66 @@ TEST(AuditedPredictions, OfWhatIsPredictedToStayAreAtRest) {
   const auto [audit, check] = world.audit();
   EXPECT_GT(share(audit, "at rest", "0.25").made, 0);
   EXPECT_EQ(share(audit, "at rest", "0.25").share(), 0.0) << "it goes";
+}
+
+TEST(IntervalsOfParts, ContainABoxTogetherIfNoPointOfItIsLeft) {
+  Rng rng(3);
+  int together = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Box whole(Vec3::Zero(), Vec3::Ones());
+    std::vector<Box> boxes;
+    for (int k = 0; k < 4; ++k) {
+      // Corners on a grid of thirds: cells of the grid are inside a box or outside of it.
+      const auto corner = [&] { return std::floor(rng.uniform(-1.0, 5.0)) / 3.0; };
+      const Vec3 a(corner(), corner(), corner()), b(corner(), corner(), corner());
+      boxes.emplace_back(a.cwiseMin(b) - Vec3::Constant(0.2), a.cwiseMax(b) + Vec3::Constant(0.2));
+    }
+    bool is_left = false;  // by brute force: the points of a fine grid
+    for (int i = 0; i <= 30; ++i) {
+      for (int j = 0; j <= 30; ++j) {
+        for (int k = 0; k <= 30 && !is_left; ++k) {
+          const Vec3 p = Vec3(i, j, k) / 30.0;
+          is_left = std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return box.contains(p); });
+        }
+      }
+    }
+    ASSERT_EQ(contain_together(boxes, whole), !is_left) << "trial " << trial;
+    together += is_left ? 0 : 1;
+  }
+  EXPECT_GT(together, 100);
+}
+
+/// Turns an object's track into two: its halves along x.
+void see_in_parts(World& world, int thing) {
+  for (auto& [name, set] : world.record.predictions) {
+    const auto whole = std::find_if(set.tracks.begin(), set.tracks.end(),
+                                    [&](const Track& track) { return track.id == 1'000 + thing; });
+    Track other = *whole;
+    whole->half_extents.x() = other.half_extents.x() = 0.5 * kHalf;
+    whole->motion.pieces[0].coefficients.col(3).x() -= 0.5 * kHalf;
+    other.motion.pieces[0].coefficients.col(3).x() += 0.5 * kHalf;
+    other.id = 2'000 + thing;
+    set.tracks.push_back(other);
+  }
+}
+
+TEST(AuditedPredictions, OfThePartsOfASeenObstacleCoverItTogether) {
+  World world(2);
+  world.predict(1'000);
+  for (int k = 0; k < 20 * static_cast<int>(kFlight); ++k) {
+    ObservationSet& parts = world.record.sightings.emplace_back();
+    parts.at = at(0.05 * k);
+    for (int id = 0; id < 2; ++id) {
+      Detection part;
+      part.position = World::place(id, 0.05 * k);
+      part.half_extents = Vec3::Constant(kHalf);
+      parts.detections.push_back(part);
+    }
+  }
+  see_in_parts(world, 1);
+  EXPECT_EQ(share(world.audit().first, "old", "1").share(), 1.0);
+  world.record.sightings.clear();
+  EXPECT_LT(share(world.audit().first, "old", "1").share(), 0.6) << "a detector's tracks are whole";
 }
 
 /// A detection of each object every 0.05 s, except of `hidden` from s on.

@@ -53,6 +53,7 @@ class Reading {
       record_.frames.back().sightings.clear();
     });
     keep(channels::kObstacleObservations, record.observations);
+    log_.on(channels::kObstacleSightings, [this](const SightingSet& set, std::int64_t) { take(set); });
     keep(channels::kPlan, record.plans);
     keep(channels::kPlanTiming, record.timings);
     keep(channels::kPlanHeading, record.headings);
@@ -94,8 +95,8 @@ class Reading {
     put_in_order(record_.setpoints, [](const UavState& s) { return s.at; });
     put_in_order(record_.statuses, [](const VehicleStatus& s) { return s.at; });
     put_in_order(record_.odometry, [](const Odometry& o) { return o.at; });
-    std::ranges::stable_sort(record_.observations,
-                             [](const ObservationSet& a, const ObservationSet& b) { return a.at < b.at; });
+    std::ranges::stable_sort(record_.observations, {}, &ObservationSet::at);
+    std::ranges::stable_sort(record_.sightings, {}, &ObservationSet::at);
     for (auto& [id, history] : record_.truth) {
       put_in_order(history.samples, [](const ObstacleHistory::Sample& s) { return s.at; });
     }
@@ -141,6 +142,18 @@ class Reading {
     if (!whole) return;
     const MessageName name = whole->header.name;
     record_.predictions.emplace(name, std::move(*whole));
+  }
+
+  void take(const SightingSet& frame) {
+    ObservationSet& parts = record_.sightings.emplace_back();
+    parts.at = frame.at;
+    parts.sensor_id = frame.sensor_id;
+    for (const Sighting& sighting : frame.sightings) {
+      Detection part;
+      part.position = 0.5 * (sighting.lower + sighting.upper);
+      part.half_extents = 0.5 * (sighting.upper - sighting.lower);
+      parts.detections.push_back(part);
+    }
   }
 
   void take(const MapChunk& chunk) {

@@ -63,6 +63,7 @@ struct FlightRecord {
   /// Declared motions by obstacle: at each time the newest declaration; no overlaps, ascending.
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;
   std::vector<ObservationSet> observations;          ///< OBSTACLE_OBSERVATIONS of all sensors, by time
+  std::vector<ObservationSet> sightings;             ///< OBSTACLE_SIGHTINGS, by time: the boxes of the visible parts
   std::vector<HorizonRequest> requests;              ///< in the log's order, like every list below
   std::vector<SightingSet> frames;                   ///< OBSTACLE_SIGHTINGS, without their sightings
   std::map<MessageName, std::size_t> frames_before;  ///< how many of them are logged before each request

@@ -46,12 +46,17 @@ class Pairing {
   ///    distance from the track's centre to the true box, then to the box's centre.
   /// 3. A track out of view keeps its earlier obstacle unless another track has it: its prediction still applies.
   ///
-  /// In a log without observations every track is in view.
+  /// In a log without observations and sightings every track is in view.
+  ///
+  /// Several tracks may belong to one obstacle that is seen in parts. In a log with sightings, rule 2 therefore offers
+  /// a track one obstacle alone. It is the one whose box is nearest to the track's, then the one of which the least
+  /// share lies outside the track's box.
   /// @return by track id; unpaired tracks are not in it
   const std::map<std::int64_t, PairedObstacle>& pair(const TrackSet& set);
 
  private:
   [[nodiscard]] bool is_in_view(const Track& track, UTime made_at) const;
+  [[nodiscard]] static bool is_seen_in(const std::vector<ObservationSet>& all, const Track& track, UTime made_at);
 
   const FlightRecord& record_;
   std::map<std::int64_t, PairedObstacle> pairs_;
@@ -63,6 +68,7 @@ struct RequiredAlpha {
   UTime at;
   std::size_t piece = 0;
   Vec3 alpha;  ///< the least α per axis that covers the true box, m; ≤ 0: covered without any
+  Box box;     ///< the true box, W
 };
 
 /// Calls visit(RequiredAlpha) for the obstacle's samples in [from, until], up to the first gap of kUnknownFor.
@@ -82,7 +88,8 @@ UTime follow(const Track& track, const ObstacleHistory& truth, UTime from, UTime
     const PowerCubic& c = pieces[piece].coefficients;
     const double t = track.kind == TrackKind::Static ? 0.0 : (sample->at - begin).seconds();
     const Vec3 p = ((c.col(0) * t + c.col(1)) * t + c.col(2)) * t + c.col(3);
-    visit(RequiredAlpha{sample->at, piece, (sample->p - p).cwiseAbs() + sample->half_extents - track.half_extents});
+    visit(RequiredAlpha{sample->at, piece, (sample->p - p).cwiseAbs() + sample->half_extents - track.half_extents,
+                        box_around(sample->p, sample->half_extents)});
     followed = sample->at;
   }
   return followed;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tools/audit/audit.h"
+#include "tools/audit/covering.h"
 #include "tools/audit/pairing.h"
 #include "tools/audit/true_motion.h"
 
@@ -75,7 +76,7 @@ class PredictionsCheck {
     for (const Track& track : set->second.tracks) {
       const auto pair = pairs->second.find(track.id);
       if (pair == pairs->second.end() || !with_plane.contains(track.id)) continue;
-      if (!is_certain(set->second, track)) claim(plan, request, track, pair->second.obstacle);
+      if (!is_certain(set->second, track)) claim(plan, request, set->second, track, pair->second.obstacle);
     }
   }
 
@@ -133,26 +134,40 @@ class PredictionsCheck {
     count(track, of, age_s, prediction);
   }
 
+  static double own_excess(const Track& track, const RequiredAlpha& n, std::size_t level) {
+    return (n.alpha - alpha_at(track, n.piece, level)).maxCoeff();
+  }
+
+  /// How far the true box stands out of the track's interval, m. Obstacles that are seen in parts may have several
+  /// tracks: 0 if the intervals of all tracks cover it together.
+  [[nodiscard]] double outside(const TrackSet& set, const Track& track, const RequiredAlpha& n,
+                               std::size_t level) const {
+    const double out = own_excess(track, n, level);
+    const bool in_parts = !record_.sightings.empty() && track.kind == TrackKind::Estimated;
+    if (out <= kOutTolerance || !in_parts) return out;
+    return intervals_contain(set, n.at, level, n.box, kOutTolerance) ? 0.0 : out;
+  }
+
   [[nodiscard]] JudgedPrediction judge(const TrackSet& set, const Track& track, const ObstacleHistory& truth) const {
     JudgedPrediction prediction;
     prediction.from = std::max({track.motion.start, set.made_at, window_.sure_from()});
     prediction.until = end_of(set, track);
     prediction.certain = is_certain(set, track);
     for (auto& levels : prediction.covered) levels.fill(true);
-    const UTime seen = follow(track, truth, prediction.from, std::min(prediction.until, window_.sure_to()),
-                              [&](const RequiredAlpha& n) {
-                                const Vec3 out = n.alpha - track.alpha[n.piece];
-                                if (out.maxCoeff() > prediction.worst)
-                                  prediction.worst = out.maxCoeff(), prediction.worst_at = n.at;
-                                const double ahead_s = (n.at - prediction.from).seconds();
-                                for (std::size_t level = 0; level < kLevels; ++level) {
-                                  if ((n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance) continue;
-                                  for (std::size_t h = 0; h < kHorizons; ++h) {
-                                    if (h == kToItsEnd || ahead_s <= kCoverageHorizons[h])
-                                      prediction.covered[h][level] = false;
-                                  }
-                                }
-                              });
+    const UTime seen = follow(
+        track, truth, prediction.from, std::min(prediction.until, window_.sure_to()), [&](const RequiredAlpha& n) {
+          const double ahead_s = (n.at - prediction.from).seconds();
+          for (std::size_t level = 0; level < kLevels; ++level) {
+            const bool is_missed = !prediction.covered[kToItsEnd][level];
+            if (is_missed && level > 0) continue;  // nor are longer times
+            const double out = is_missed ? own_excess(track, n, 0) : outside(set, track, n, level);
+            if (level == 0 && out > prediction.worst) prediction.worst = out, prediction.worst_at = n.at;
+            if (out <= kOutTolerance) continue;
+            for (std::size_t h = 0; h < kHorizons; ++h) {
+              if (h == kToItsEnd || ahead_s <= kCoverageHorizons[h]) prediction.covered[h][level] = false;
+            }
+          }
+        });
     prediction.complete = seen >= prediction.until;
     for (std::size_t h = 0; h < kHorizons; ++h) {
       const UTime end =
@@ -191,14 +206,15 @@ class PredictionsCheck {
 
   /// Judges a claim. If the end of the flight cuts it off, it is judged up to there. It may then count as covered
   /// wrongly, but never as missed.
-  void claim(const Plan& plan, const HorizonRequest& request, const Track& track, std::int64_t obstacle) {
+  void claim(const Plan& plan, const HorizonRequest& request, const TrackSet& set, const Track& track,
+             std::int64_t obstacle) {
     const auto level = idx(plan.level);
     const UTime ends = std::max(plan.trajectory.end(), request.t_s) + plan.hold;
     const UTime until = std::min({ends, request.t_s + plan.sure_for, track.motion.end(), window_.sure_to()});
     if (request.t_s < track.motion.start || request.t_s > until) return;
     bool covered = true;
     const UTime seen = follow(track, record_.truth.at(obstacle), request.t_s, until, [&](const RequiredAlpha& n) {
-      covered = covered && (n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance;
+      covered = covered && outside(set, track, n, level) <= kOutTolerance;
     });
     if (covered && seen < until) return;  ///< unknown
     by_obstacle_[obstacle].claims[level] += ClaimCount{1, covered ? 1 : 0};
