@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace tern::mission {
@@ -38,10 +39,9 @@ void StepList::stay_longer(double hold_s) {
 }
 
 const Vec3& StepList::last() const {
-  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
-    if (step->action != Action::Follow) return step->position;
-  }
-  return site_.home;
+  const auto step =
+      std::find_if(steps_.rbegin(), steps_.rend(), [](const Step& s) { return s.action != Action::Follow; });
+  return step == steps_.rend() ? site_.home : step->position;
 }
 
 void StepList::descend(const std::string& name, int item, const Vec3& low) {
