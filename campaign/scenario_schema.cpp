@@ -45,7 +45,7 @@ constexpr const char* kExamples[] = {
 
 /// Tables whose keys the user names: every value is like the table's default values.
 constexpr std::string_view kOpenTables[] = {"semantics.classes", "semantics.lambdas", "mapper.classes",
-                                            "simulator.vio.landmarks.regions"};
+                                            "simulator.vio.landmarks.regions", "planner.semantics.landmarks.regions"};
 
 /// Returns "[0, 10]" or "(0, 10]"; infinite ends are open.
 void add_range(Json& schema, std::string_view range) {

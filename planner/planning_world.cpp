@@ -11,6 +11,8 @@
 namespace tern {
 namespace {
 
+/// Nodes of a field whose costs are priced: each costs some times more than by length alone.
+constexpr std::int64_t kPricedNodes = 60'000;
 /// An obstacle that would arrive later than this counts as one that never arrives.
 constexpr Duration kMaxArrivalTime{1'000'000'000'000};
 
@@ -18,6 +20,39 @@ constexpr Duration kMaxArrivalTime{1'000'000'000'000};
 Box piece_box(const Track& track, std::size_t k) {
   const CubicPiece& piece = track.motion.pieces[k];
   return grown(cubic_bounds(piece.coefficients, 0.0, piece.duration.seconds()), track.half_extents + track.alpha[k]);
+}
+
+/// The places of which information is prepared: the textures with kAroundTexture, start and goal, in the flight box.
+Box informed_region(const SurfaceMap& surfaces, const GoalFieldKey& key, const Vec3& start) {
+  Box region(key.goal);
+  region.extend(start);
+  if (!surfaces.extent().isEmpty()) region.extend(surfaces.extent());
+  return grown(region, Vec3(kAroundTexture, kAroundTexture, 0.0)).intersection(key.flight_box);
+}
+
+/// Returns the heights at which information is prepared: of goal, start and the highest place, and half-way up to it.
+std::vector<double> informed_heights(double goal, double start, const Box& region) {
+  const double high = std::max(goal, start), top = std::min(region.max().z(), high + kHigherPlaces);
+  std::vector<double> heights;
+  for (const double z : {std::min(goal, start), high, 0.5 * (high + top), top}) {
+    if (heights.empty() || z > heights.back() + kLeastLayer) heights.push_back(z);
+  }
+  return heights;
+}
+
+TravelCost priced_way(const GoalFieldKey& key, const MapProducts& map, const std::vector<Box>& static_boxes,
+                      const Vec3& start) {
+  const SurfaceMap surfaces = map.surfaces.with_obstacles(static_boxes);
+  const Box region = informed_region(surfaces, key, start);
+  if (region.isEmpty()) return {};
+  const auto information =
+      std::make_shared<const InformationMap>(surfaces, region, informed_heights(key.goal.z(), start.z(), region));
+  TravelCost cost;
+  cost.region = region;
+  cost.information = information;
+  cost.priced = [price = ErrorPrice(information, map.error_price, key.speed)](
+                    const Vec3& a, const Vec3& b, Drift& drift) { return price.extend(a, b, drift); };
+  return cost;
 }
 
 }  // namespace
@@ -71,6 +106,11 @@ Foresight PredictionProducts::foresight(const Box& region) const {
 MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
     : version(map.version), occupied(cover_with_boxes(map, config.unknown_is_obstacle)) {
   if (!config.semantics) return;
+  error_price = config.error_price.error_price;
+  if (error_price > 0.0) {  // it replaces every λ
+    surfaces = SurfaceMap(map, config.error_price.landmarks);
+    return;
+  }
   SemanticFieldsOptions options;
   options.exposure_margin = config.exposure_margin_m;
   options.lambda_attractive = config.lambda_attractive;
@@ -78,6 +118,10 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
   options.class_lambdas = config.class_lambdas;
   fields = SemanticFields(map, options);
   semantic_paths = config.semantic_path && fields.has_weight();
+}
+
+double way_speed(const MapProducts& map, const Limits& limits) {
+  return map.error_price > 0.0 ? kCruiseShare * std::min(limits.v_max.x(), limits.v_max.y()) : 0.0;
 }
 
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
@@ -92,10 +136,21 @@ GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const M
   GoalFieldOptions options;
   options.start = start;
   if (map->semantic_paths) {
-    options.cost = {[map](const Vec3& a, const Vec3& b) { return map->fields.exposure_cost(a, b); },
-                    map->fields.influence()};
+    options.cost.extra = [map](const Vec3& a, const Vec3& b) { return map->fields.exposure_cost(a, b); };
+    options.cost.region = map->fields.influence();
+  }
+  if (map->error_price > 0.0) {
+    options.cost = priced_way(key, *map, static_boxes, start);
+    options.max_nodes = kPricedNodes;
   }
   return GoalField::build(std::move(boxes), places_within(key.flight_box, key.body), key.goal, options);
+}
+
+std::optional<ForetoldError> foretell_error(const GoalField& field, const Vec3& start, double speed) {
+  if (!field.cost().information) return std::nullopt;
+  const auto path = field.path_from(start);
+  if (!path) return std::nullopt;
+  return foretell_error(*path, speed, *field.cost().information);
 }
 
 }  // namespace tern

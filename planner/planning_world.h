@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/world/goal.h"
@@ -15,7 +16,10 @@
 #include "planner/global_path/goal_field.h"
 #include "planner/problem/planner_config.h"
 #include "planner/safety/swept_obstacles.h"
+#include "planner/semantics/belief.h"
+#include "planner/semantics/error_price.h"
 #include "planner/semantics/semantic_fields.h"
+#include "planner/semantics/surface_map.h"
 #include "planner/static_tracks.h"
 #include "planner/unseen/unseen_watch.h"
 
@@ -65,6 +69,8 @@ struct MapProducts {
   BoxIndex occupied;  ///< the obstacle voxels, merged into boxes
   SemanticFields fields;
   bool semantic_paths = false;  ///< paths around static obstacles include the exposure cost
+  SurfaceMap surfaces;          ///< with an error price: the texture that labels promise
+  double error_price = 0.0;     ///< m/m; > 0: paths include the price of their drift instead of the exposure cost
 
   MapProducts(const VoxelMap& map, const PlannerConfig& config);
 };
@@ -76,15 +82,21 @@ struct GoalFieldKey {
   std::uint64_t statics = 0;               ///< digest of the static boxes
   Box body{Vec3(0, 0, 0), Vec3(0, 0, 0)};  ///< the body about its position, by which obstacles are grown, m
   Box flight_box;
+  double speed = 0.0;  ///< of the way, with an error price, m/s; else 0
   friend bool operator==(const GoalFieldKey& a, const GoalFieldKey& b) {
-    return a.goal == b.goal && a.map_version == b.map_version && a.statics == b.statics &&
+    return a.goal == b.goal && a.map_version == b.map_version && a.statics == b.statics && a.speed == b.speed &&
            a.body.min() == b.body.min() && a.body.max() == b.body.max() && a.flight_box.min() == b.flight_box.min() &&
            a.flight_box.max() == b.flight_box.max();
   }
 };
 
+/// Returns the speed that GoalFieldKey states: kCruiseShare of the vehicle's least horizontal v_max, or 0 without an
+/// error price.
+double way_speed(const MapProducts& map, const Limits& limits);
+
 /// Returns the field of distances to a goal around the boxes of map and static tracks. Distances include the exposure
-/// cost if map->semantic_paths. Takes about 100 ms, with regions about 300 ms. The field keeps the map alive.
+/// cost if map->semantic_paths, or the price of drift with an error price. Takes about 100 ms, with regions about 300
+/// ms, with an error price a second. The field keeps the map alive.
 /// @param static_boxes  boxes of static tracks, not inflated, W
 /// @param start  enlarges the region that is searched
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
@@ -97,6 +109,10 @@ struct GoalProducts {
   std::shared_ptr<const GoalField> field;  ///< null if no field was ever made: the goal is to hold or stop
   GoalFieldInputs made_from;               ///< the inputs of `field`, as a plan reports them
 };
+
+/// Returns the error that the way from start to the field's goal is expected to leave; nullopt without an error price
+/// or a way.
+std::optional<ForetoldError> foretell_error(const GoalField& field, const Vec3& start, double speed);
 
 /// The snapshot for one call of plan(). A null member has not been received or prepared.
 struct PlanningWorld {

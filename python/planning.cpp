@@ -129,6 +129,7 @@ PreparedWorld::PreparedWorld(const Vehicle& vehicle, const Vec3& goal, const Vec
   key.map_version = map.version;
   key.body = body_box(grown(vehicle.body, vehicle.tube));
   key.flight_box = vehicle.flight_box;
+  key.speed = way_speed(*world_.map, vehicle.limits);
   world_.goal = goal_of(told, key, world_.map, statics, start);
 }
 

@@ -125,8 +125,9 @@ class SteppedPlanner final : public Node {
 
   /// Makes the field of distances again if goal, map, static tracks or the vehicle's box are new.
   std::shared_ptr<const GoalProducts> goal_of(const Fields& fields) const {
-    const GoalFieldKey key{goal_->position, fields.map->version, statics_.digest(),
-                           body_box(grown(open_->body, open_->tube)), open_->flight_box};
+    const GoalFieldKey key{goal_->position,   fields.map->version,
+                           statics_.digest(), body_box(grown(open_->body, open_->tube)),
+                           open_->flight_box, way_speed(*fields.map, open_->limits)};
     const bool same = fields.goal && fields.goal->field && fields.goal->key == key;
     GoalFieldInputs from = same ? fields.goal->made_from
                                 : GoalFieldInputs{fields.map->version, statics_.epoch_us(), statics_.first_set(),

@@ -47,7 +47,7 @@ PlannedPath measured(std::vector<Vec3> points, const std::vector<Region>& region
 Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map,
                                  const Body& body) {
   const UavSpec& uav = view.scenario.uav;
-  const GoalFieldKey key{uav.goal, map->version, 0, body_box(body), uav.flight_box};
+  const GoalFieldKey key{uav.goal, map->version, 0, body_box(body), uav.flight_box, way_speed(*map, uav.limits)};
   const std::vector<Box> statics = static_boxes(view.world);
   const GoalField field = make_goal_field(key, map, statics, uav.start);
   auto points = field.path_from(uav.start);

@@ -50,8 +50,9 @@ PlanningWorld world_of(const Scenario& scenario, TrackSet tracks, const VoxelMap
   Goal goal;
   goal.id = 1;
   goal.position = scenario.uav.goal;
-  const GoalFieldKey key{goal.position, products->version, digest_of({}), body_box(scenario.uav.body),
-                         scenario.uav.flight_box};
+  const GoalFieldKey key{goal.position,           products->version,
+                         digest_of({}),           body_box(scenario.uav.body),
+                         scenario.uav.flight_box, way_speed(*products, scenario.uav.limits)};
   auto field = std::make_shared<const GoalField>(make_goal_field(key, products, {}, scenario.uav.start));
   world.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), {}});
   return world;

@@ -1,6 +1,7 @@
 #include "planner/app/config_reader.h"
 
 #include "planner/optimization/ipopt_solver.h"
+#include "runtime/class_densities.h"
 
 namespace tern {
 namespace {
@@ -20,6 +21,10 @@ const char* key_for_ipopt(const OptimizationConfig& config) {
 
 PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& semantics) {
   PlannerConfig c;
+  LandmarkPriors& priors = c.error_price.landmarks;
+  priors.regions = read_class_densities(section.section("semantics").section("landmarks").section("regions"),
+                                        priors.regions, LandmarkPriors::kMaxDensity,
+                                        "expected landmarks per m² in regions of this class; others have the ground's");
   section.read(c);
   c.semantics = semantics.enabled;
   c.semantic_cost = semantics.cost == "mean_distance" ? SemanticCost::MeanDistance : SemanticCost::Exposure;

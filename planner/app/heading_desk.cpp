@@ -4,13 +4,25 @@
 
 #include "messages/channels.h"
 #include "planner/heading/heading_planner.h"
+#include "planner/heading/texture_term.h"
 
 namespace tern {
 
-void HeadingDesk::begin(const HorizonRequest& request, std::shared_ptr<const PredictionProducts> predictions) {
+std::optional<PlanHeading> plan_heading_in(const PlanningWorld& world, const HorizonRequest& request, const Plan& plan,
+                                           const HeadingLimits& limits, const HeadingStart& start) {
+  static const std::vector<Track> kNone;
+  const std::vector<Track>& tracks = world.predictions ? world.predictions->set.tracks : kNone;
+  const bool knows_texture = world.map && world.map->error_price > 0.0 && world.goal && world.goal->field &&
+                             world.goal->field->cost().information;
+  if (!knows_texture) return plan_heading(request, plan, tracks, limits, start);
+  const TextureTerm texture(*world.goal->field->cost().information, world.map->error_price);
+  return plan_heading(request, plan, tracks, limits, start, &texture);
+}
+
+void HeadingDesk::begin(const HorizonRequest& request, const PlanningWorld& world) {
   const std::lock_guard lock(mutex_);
   request_ = request;
-  predictions_ = std::move(predictions);
+  world_ = world;
 }
 
 void HeadingDesk::answered(const Plan& plan) {
@@ -19,9 +31,7 @@ void HeadingDesk::answered(const Plan& plan) {
   auto at = sent_.committed_at(*request_);
   if (!at) at = flight_direction(*request_, plan);
   if (!at) return;
-  static const std::vector<Track> kNone;
-  const std::vector<Track>& tracks = predictions_ ? predictions_->set.tracks : kNone;
-  const auto heading = plan_heading(*request_, plan, tracks, limits_, heading_start(*at, plan.trajectory.interval));
+  const auto heading = plan_heading_in(world_, *request_, plan, limits_, heading_start(*at, plan.trajectory.interval));
   if (!heading) return;
   sent_.add(plan.trajectory, *heading);
   bus_.publish(channels::kPlanHeading, *heading);

@@ -7,11 +7,16 @@
 
 #include "core/world/heading.h"
 #include "core/world/horizon.h"
+#include "planner/heading/heading_search.h"
 #include "planner/heading/sent_headings.h"
 #include "planner/planning_world.h"
 #include "runtime/bus.h"
 
 namespace tern {
+
+/// Returns plan_heading() for the tracks of a world, and with an error price for its texture.
+std::optional<PlanHeading> plan_heading_in(const PlanningWorld& world, const HorizonRequest& request, const Plan& plan,
+                                           const HeadingLimits& limits, const HeadingStart& start);
 
 /// Plans and publishes headings (planner/heading/heading_planner.h). PLAN never waits for it.
 ///
@@ -21,8 +26,8 @@ class HeadingDesk {
  public:
   HeadingDesk(Bus& bus, const HeadingLimits& limits) : bus_(bus), limits_(limits) {}
 
-  /// Planning of a request begins, from these predictions. A null pointer means that there are none.
-  void begin(const HorizonRequest& request, std::shared_ptr<const PredictionProducts> predictions);
+  /// Planning of a request begins, in this world.
+  void begin(const HorizonRequest& request, const PlanningWorld& world);
   /// A plan was published. Its heading is published if its request was begun last, and if it has one.
   void answered(const Plan& plan);
 
@@ -31,7 +36,7 @@ class HeadingDesk {
   HeadingLimits limits_;
   std::mutex mutex_;
   std::optional<HorizonRequest> request_;
-  std::shared_ptr<const PredictionProducts> predictions_;
+  PlanningWorld world_;
   SentHeadings sent_;
 };
 

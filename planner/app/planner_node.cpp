@@ -155,7 +155,7 @@ void PlannerNode::start_planning(UTime now) {
 void PlannerNode::work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {
   PlanStopwatch stopwatch([this](const Plan& plan) { desk_.improve(plan); }, &monotonic_ms);
   if (config_.publish_search) stopwatch.keep_search();
-  headings_.begin(request, world.predictions);
+  headings_.begin(request, world);
   Budget budget = clock_budget(bus_.clock(), arrived, request.deadline - kWatchdogLead);
   auto [plan, timing] = timed_plan(request, world, config_, budget, workspace_, stopwatch);
   timing.total_ms = std::max(timing.total_ms, (bus_.clock().now() - arrived).seconds() * 1e3);
@@ -176,7 +176,7 @@ void PlannerNode::publish_search(std::int64_t request_id, std::vector<SearchView
 void PlannerNode::work_in_virtual_time(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {
   const UTime began = bus_.clock().now();
   const bool charged = execution_.charge_cpu;
-  headings_.begin(request, world.predictions);
+  headings_.begin(request, world);
   const ThreadCpuClock cpu(began);
   Delayed delayed;
   const auto improved = [&](const Plan& p) { delayed.improvements.emplace_back(charged ? cpu.now() : began, p); };

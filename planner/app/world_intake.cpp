@@ -18,6 +18,7 @@ WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& u
       places_(std::move(places)),
       body_(body_box(uav.body)),
       flight_box_(uav.flight_box),
+      limits_(uav.limits),
       position_(uav.start) {
   if (in_background) worker_ = std::make_unique<Worker>();
   bus.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
@@ -49,6 +50,7 @@ void WorldIntake::set_vehicle(const HorizonRequest& request) {
   if (vehicle_ != MessageName{} && epoch_us != vehicle_.sender_epoch_us) forget_before(epoch_us);
   body_ = body_box(grown(request.body, request.tube));
   flight_box_ = request.flight_box;
+  limits_ = request.limits;
   position_ = request.start.p;
   vehicle_ = request.header.name;
 }
@@ -138,7 +140,8 @@ void WorldIntake::prepare() {
   }
   const PlanningWorld world = snapshot();
   if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
-  const GoalFieldKey key{newest_goal_->position, world.map->version, statics_.digest(), body_, flight_box_};
+  const GoalFieldKey key{newest_goal_->position,        world.map->version, statics_.digest(), body_, flight_box_,
+                         way_speed(*world.map, limits_)};
   if (world.goal && world.goal->field && world.goal->key == key) {
     // A repeated goal is published by its new name: plans then name a message that a late logger has received.
     if (world.goal->goal.header.name == newest_goal_->header.name) return;
@@ -146,8 +149,9 @@ void WorldIntake::prepare() {
                                      GoalProducts{*newest_goal_, key, world.goal->field, world.goal->made_from}));
   }
   const GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
-  start([this, number = goal_number_, goal = *newest_goal_, key, names, map = world.map, boxes = statics_.boxes(),
-         at = position_] {
+  const bool is_new = !world.goal || world.goal->goal.id != newest_goal_->id;
+  start([this, is_new, number = goal_number_, goal = *newest_goal_, key, names, map = world.map,
+         boxes = statics_.boxes(), at = position_] {
     auto field = std::make_shared<const GoalField>(make_goal_field(key, map, boxes, at));
     std::string blocked;
     if (!field->path_from(at)) {
@@ -155,6 +159,10 @@ void WorldIntake::prepare() {
       log::warn("{}", blocked);
     }
     note_blocked(std::move(blocked));
+    if (const auto error = is_new ? foretell_error(*field, at, key.speed) : std::nullopt) {
+      log::info("error of the position foretold for goal {}: σ {:.2f} m there, {:.2f} m at the worst place", goal.id,
+                error->at_goal, error->at_worst);
+    }
     publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names}));
   });
 }

@@ -80,6 +80,7 @@ class WorldIntake {
   std::int64_t goal_number_ = 0;    ///< counts the values of newest_goal_
   Box body_;                        ///< of the vehicle, about its position
   Box flight_box_;
+  Limits limits_;
   Vec3 position_;        ///< of the vehicle, W
   MessageName vehicle_;  ///< the request that described the vehicle last; none: as configured
 

@@ -38,6 +38,7 @@ GoalField GoalField::build(std::vector<Box> inflated_statics, const Box& flight_
   search.run();
   field.to_go_ = std::move(search.to_go);
   field.next_ = std::move(search.next);
+  field.drift_ = std::move(search.drift);
   return field;
 }
 
@@ -90,6 +91,20 @@ Vec3 GoalField::position(std::int32_t node) const { return node == kGoalNode ? g
 
 double GoalField::to_go(std::int32_t node) const { return node == kGoalNode ? 0.0 : to_go_[idx(node)]; }
 
+/// Returns what the way from a point to a turning point adds to the cost of that.
+double GoalField::step_cost(const Vec3& from, std::int32_t turn) const {
+  if (!cost_.priced) return cost_(from, position(turn));
+  Drift drift = turn == kGoalNode ? Drift{} : drift_[idx(turn)];
+  return cost_.priced(from, position(turn), drift) - to_go(turn);
+}
+
+/// Returns the drift of the way from a vertex of a path; none without a `priced` cost.
+Drift GoalField::drift_from(const std::vector<Vec3>& path, std::size_t k) const {
+  Drift drift;
+  for (std::size_t i = path.size() - 1; cost_.priced && i > k; --i) cost_.priced(path[i - 1], path[i], drift);
+  return drift;
+}
+
 /// Returns the best first point of a path: a node near the start, or the turning point that such a node sees.
 std::int32_t GoalField::first_turn(const Vec3& start) const {
   std::int32_t best = kNoNode;
@@ -97,7 +112,7 @@ std::int32_t GoalField::first_turn(const Vec3& start) const {
   const auto consider = [&](std::int32_t turn) {
     const Vec3 p = position(turn);
     if ((p - start).norm() + to_go(turn) >= shortest) return;
-    const double length = cost_(start, p) + to_go(turn);
+    const double length = step_cost(start, turn) + to_go(turn);
     if (length >= shortest || obstacles_.blocks(start, p, start)) return;
     best = turn;
     shortest = length;
@@ -118,7 +133,7 @@ std::optional<std::vector<Vec3>> GoalField::path_from(const Vec3& start) const {
   const bool sees_goal = !obstacles_.blocks(start, goal_, start);
   if (sees_goal && cost_.is_length()) return std::vector<Vec3>{start, goal_};
   std::int32_t turn = first_turn(start);
-  if (sees_goal && (turn == kNoNode || cost_(start, goal_) <= cost_(start, position(turn)) + to_go(turn))) {
+  if (sees_goal && (turn == kNoNode || step_cost(start, kGoalNode) <= step_cost(start, turn) + to_go(turn))) {
     return std::vector<Vec3>{start, goal_};
   }
   if (turn == kNoNode) return std::nullopt;
@@ -162,13 +177,21 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
   // By length alone, erasing a vertex or pulling it to a chord never makes a path longer.
+  Drift beyond;  // of the way from b
+  const auto over = [&](const Vec3& a, const Vec3& v, const Vec3& b) {
+    if (!cost_.priced) return cost_(a, v) + cost_(v, b);
+    Drift drift = beyond;
+    cost_.priced(v, b, drift);
+    return cost_.priced(a, v, drift);
+  };
   const auto is_cheaper = [&](const Vec3& a, const Vec3& v, const Vec3& w, const Vec3& b) {
-    return cost_.is_length() || cost_(a, w) + cost_(w, b) <= cost_(a, v) + cost_(v, b);
+    return cost_.is_length() || over(a, w, b) <= over(a, v, b);
   };
   for (int pass = 0; pass < kTightenPasses; ++pass) {
     for (std::size_t i = 1; i + 1 < path.size();) {
       const Vec3 a = path[i - 1];
       const Vec3 b = path[i + 1];
+      beyond = drift_from(path, i + 1);
       if (is_free(a, b) && is_cheaper(a, path[i], a, b)) {
         path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
         continue;

@@ -30,7 +30,8 @@ struct GoalFieldOptions {
 ///    gets a grid line at its middle if it has none. The gap may be between two boxes, or between a box and the
 ///    flight box. So a window of 0.6 m stays open to a vehicle of 0.2 m in a grid of 0.25 m.
 ///  - Cost: with a TravelCost the path of least cost is sought instead of the shortest. It leads around repulsive
-///    regions and through attractive ones as far as that pays.
+///    regions and through attractive ones as far as that pays. With a `priced` cost a node carries the drift of its
+///    way. The path is longer where seeing is worth it.
 ///  - Region: the bounds of goal, options.start, obstacles and cost.region, plus a margin, cut by the flight box.
 ///    Open worlds (flight boxes of ±10⁴ m) cost as much as their obstacles.
 ///
@@ -79,6 +80,8 @@ class GoalField {
   [[nodiscard]] Vec3 position(std::int32_t node) const;
   [[nodiscard]] double to_go(std::int32_t node) const;
   [[nodiscard]] std::int32_t first_turn(const Vec3& start) const;
+  [[nodiscard]] double step_cost(const Vec3& from, std::int32_t turn) const;
+  [[nodiscard]] Drift drift_from(const std::vector<Vec3>& path, std::size_t k) const;
   void tighten(std::vector<Vec3>& path) const;
 
   Vec3 goal_ = Vec3::Zero();
@@ -89,6 +92,7 @@ class GoalField {
   RectilinearGrid grid_;
   std::vector<double> to_go_;       ///< per node: cost to the goal, m; infinite if it is not reached
   std::vector<std::int32_t> next_;  ///< per node: the visible turning point (a node, or kGoalNode)
+  std::vector<Drift> drift_;        ///< per node: of its way to the goal, if the cost is `priced`
 };
 
 }  // namespace tern

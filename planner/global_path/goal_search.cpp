@@ -18,7 +18,9 @@ GoalSearch::GoalSearch(const RectilinearGrid& grid, const BoxIndex& obstacles, c
       obstacles_(obstacles),
       goal_(goal),
       cost_(cost),
-      state_(to_go.size(), State::Open) {}
+      state_(to_go.size(), State::Open) {
+  if (cost.priced) drift.resize(to_go.size());
+}
 
 void GoalSearch::run() {
   block_covered_nodes();
@@ -49,8 +51,10 @@ void GoalSearch::queue_around_goal() {
   grid_.for_neighbours(grid_.cell(goal_), 1, 2, [&](std::int32_t node) {
     const auto n = idx(node);
     if (state_[n] == State::Blocked) return;
-    to_go[n] = cost_(grid_.position(node), goal_);
+    Drift begun;
+    to_go[n] = step_cost(grid_.position(node), kGoalNode, begun);
     next[n] = kGoalNode;
+    if (!drift.empty()) drift[n] = begun;
     queue_.emplace(to_go[n], node);
   });
 }
@@ -66,10 +70,12 @@ bool GoalSearch::sight(std::int32_t node) {
     const auto o = idx(other);
     if (state_[o] != State::Closed) return;
     const Vec3 q = grid_.position(other);
-    const double length = to_go[o] + cost_(p, q);
+    Drift begun;
+    const double length = to_go[o] + step_cost(p, other, begun);
     if (length >= to_go[n] - kGain || obstacles_.blocks(p, q)) return;
     to_go[n] = length;
     next[n] = other;
+    if (!drift.empty()) drift[n] = begun;
   });
   if (next[n] == kNoNode) return false;
   if (queue_.empty() || Entry(to_go[n], node) < queue_.top()) return true;
@@ -88,16 +94,25 @@ void GoalSearch::expand(std::int32_t node) {
   });
 }
 
+/// Returns what the step to a turning point adds to its cost, and with a `priced` cost the drift of the way from there.
+double GoalSearch::step_cost(const Vec3& from, std::int32_t turn, Drift& drift_there) const {
+  if (!cost_.priced) return cost_(from, position(turn));
+  drift_there = turn == kGoalNode ? Drift{} : drift[idx(turn)];
+  return cost_.priced(from, position(turn), drift_there) - to_go_of(turn);
+}
+
 void GoalSearch::offer(std::int32_t other, std::int32_t turn) {
   const auto o = idx(other);
   const Vec3 p = position(turn);
   const Vec3 q = grid_.position(other);
   const double bar = to_go[o] - kGain - to_go_of(turn);
   if ((q - p).norm() >= bar) return;
-  const double length = cost_(q, p);
+  Drift begun;
+  const double length = step_cost(q, turn, begun);
   if (length >= bar) return;
   to_go[o] = to_go_of(turn) + length;
   next[o] = turn;
+  if (!drift.empty()) drift[o] = begun;
   state_[o] = State::Open;
   queue_.emplace(to_go[o], other);
 }

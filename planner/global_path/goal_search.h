@@ -27,6 +27,9 @@ inline constexpr std::int32_t kNoNode = -2;
 /// when the node is popped. If the sight is blocked, the best closed neighbour becomes the node's `next`. Where cost
 /// differs from length, a straight line may not be the cheapest. Then the way over the node itself is also tried
 /// (Theta* on weighted grids).
+///
+/// With a cost that is `priced`, a node keeps the drift of its cheapest way alone. A dearer way with less blind time
+/// may be the better beginning of a longer one: such ways are lost, which costs little (goal_field_test).
 class GoalSearch {
  public:
   /// @pre grid, obstacles and cost outlive the search
@@ -35,6 +38,7 @@ class GoalSearch {
 
   std::vector<double> to_go;       ///< per node: cost to the goal (TravelCost), m; infinite if it is not reached
   std::vector<std::int32_t> next;  ///< per node: the visible turning point
+  std::vector<Drift> drift;        ///< per node, with a cost that is `priced`: of its way to the goal; else empty
 
  private:
   enum class State : std::uint8_t { Open, Sighted, Closed, Blocked };
@@ -45,6 +49,7 @@ class GoalSearch {
   bool sight(std::int32_t node);
   void expand(std::int32_t node);
   void offer(std::int32_t other, std::int32_t turn);
+  [[nodiscard]] double step_cost(const Vec3& from, std::int32_t turn, Drift& drift_there) const;
   [[nodiscard]] Vec3 position(std::int32_t node) const { return node == kGoalNode ? goal_ : grid_.position(node); }
   [[nodiscard]] double to_go_of(std::int32_t node) const { return node == kGoalNode ? 0.0 : to_go[idx(node)]; }
 

@@ -31,6 +31,9 @@ std::vector<LookInstant> look_instants(const TimedSpline& trajectory, UTime from
   return instants;
 }
 
+/// A field of view of this many degrees has no edge.
+constexpr double kAllRound = 360.0;
+
 using TargetLists = std::vector<std::vector<LookTarget>>;
 
 /// The values of a term at each instant, with its weight applied.
@@ -41,6 +44,10 @@ TargetLists targets_of(const LookTerm& term, const std::vector<LookInstant>& ins
     for (LookTarget& target : lists[k]) target.worth *= term.weight();
   }
   return lists;
+}
+
+void add(const TargetLists& more, TargetLists& to) {
+  for (std::size_t k = 0; k < to.size(); ++k) to[k].insert(to[k].end(), more[k].begin(), more[k].end());
 }
 
 /// The value of a term along a heading.
@@ -76,14 +83,17 @@ std::optional<YawSample> flight_direction(const HorizonRequest& request, const P
 
 std::optional<PlanHeading> plan_heading(const HorizonRequest& request, const Plan& plan,
                                         const std::vector<Track>& tracks, const HeadingLimits& limits,
-                                        const HeadingStart& start) {
+                                        const HeadingStart& start, const LookTerm* texture) {
   if (plan.outcome == PlanOutcome::NoPlan) return std::nullopt;
   const TimedSpline& trajectory = plan.trajectory;
   const std::vector<LookInstant> instants = look_instants(trajectory, request.t_s);
   const TargetLists path = targets_of(PathTerm(trajectory, plan.local_goal, request.limits), instants);
   const TargetLists seen = targets_of(TrackTerm(tracks, trajectory, request.t_s), instants);
-  TargetLists all = path;
-  for (std::size_t k = 0; k < all.size(); ++k) all[k].insert(all[k].end(), seen[k].begin(), seen[k].end());
+  TargetLists all(instants.size());
+  const bool sees_all_round = texture != nullptr && limits.view_deg >= kAllRound;
+  if (!sees_all_round) add(path, all);
+  if (!sees_all_round) add(seen, all);
+  if (texture != nullptr) add(targets_of(*texture, instants), all);
   auto points = search_heading(start, trajectory.interval, all, limits);
   if (!points) return std::nullopt;
   PlanHeading heading;

@@ -22,15 +22,17 @@ std::optional<YawSample> flight_direction(const HorizonRequest& request, const P
 /// Plans the heading of a plan from t_s on, in as many intervals of the same length. After KeepCommitted it looks along
 /// what is left of the committed trajectory. Pure and deterministic.
 ///
-/// 1. Each term names the directions that are worth looking at, at the Greville abscissa of each control point:
-///    the way ahead (path_term.h), tracks (track_term.h).
+/// 1. At the Greville abscissa of each control point, each term names the directions that are worth looking at. Terms:
+///    the way ahead (path_term.h), tracks (track_term.h), texture (texture_term.h).
+///    With texture, the first two are left out for sensors that see all round (limits.view_deg = 360).
 /// 2. search_heading() finds the yaw that misses least.
 /// 3. The terms are evaluated along it: their values are in the message.
 ///
 /// @param tracks  those of the predictions that the plan names; empty without predictions
+/// @param texture  the reason to look at texture; null: none
 /// @return nullopt for NoPlan, and if search_heading() finds none. The header is empty
 std::optional<PlanHeading> plan_heading(const HorizonRequest& request, const Plan& plan,
                                         const std::vector<Track>& tracks, const HeadingLimits& limits,
-                                        const HeadingStart& start);
+                                        const HeadingStart& start, const LookTerm* texture = nullptr);
 
 }  // namespace tern

@@ -100,7 +100,8 @@ std::vector<double> points_to(const std::vector<std::vector<State>>& layers, std
 double unseen_cost(double yaw, const std::vector<LookTarget>& targets, double half_view) {
   double cost = 0.0;
   for (const LookTarget& target : targets) {
-    const double off = std::abs(std::remainder(target.bearing - yaw, kTurn)) / half_view;
+    const double half = target.half_view > 0.0 ? target.half_view : half_view;
+    const double off = std::abs(std::remainder(target.bearing - yaw, kTurn)) / half;
     cost += target.worth * std::min(1.0, off * off);
   }
   return cost;

@@ -18,7 +18,7 @@ struct HeadingStart {
 /// Returns what this yaw costs per second: Σ worth · min(1, (angle / half_view)²) over the targets.
 ///
 /// The cost rises from the centre of the view outwards: at its edge, a prediction error or a turn loses the target.
-/// @param half_view  half of the horizontal field of view, rad, > 0
+/// @param half_view  half of the horizontal field of view, rad, > 0; a target may have its own
 double unseen_cost(double yaw, const std::vector<LookTarget>& targets, double half_view);
 
 /// Returns the span of the i-th control point of a clamped cubic spline's derivative: q_{i+1} − q_i = w_i · span_i, s.

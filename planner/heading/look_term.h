@@ -10,8 +10,9 @@ namespace tern {
 
 /// A direction that is worth looking at.
 struct LookTarget {
-  double bearing = 0.0;  ///< about W's z from W's x, rad
-  double worth = 0.0;    ///< cost while it is not seen, in the unit of its term per second, ≥ 0
+  double bearing = 0.0;    ///< about W's z from W's x, rad
+  double worth = 0.0;      ///< cost while it is not seen, in the unit of its term per second, ≥ 0
+  double half_view = 0.0;  ///< half of the field of view of the camera that is to see it, rad; 0: of HeadingLimits
 };
 
 /// The vehicle at one instant of its plan.

@@ -7,6 +7,7 @@
 
 #include "core/base/knobs.h"
 #include "core/splines/hull_basis.h"
+#include "planner/problem/landmark_priors.h"
 #include "planner/unseen/unseen_movers.h"
 
 namespace tern {
@@ -83,6 +84,18 @@ inline constexpr int kMaxPlanIntervals = 12;
 /// Where the vehicle looks: in the direction of flight (the executor decides), or where a planned heading points.
 enum class HeadingMode { Along, Planned };
 
+/// The section `planner.semantics`.
+struct ErrorPriceConfig {
+  double error_price = 0.0;
+  LandmarkPriors landmarks;
+  template <typename V>
+  void visit(V& v) {
+    v("error_price", error_price, Range{0.0, 1e4},
+      "metres of way that one metre of the position's σ is worth, at the goal and at the worst place; 0: λ applies");
+    v("landmarks", landmarks);
+  }
+};
+
 struct PlannerConfig {
   int intervals = 6;             ///< J
   double sphere_radius_m = 4.0;  ///< r
@@ -107,6 +120,7 @@ struct PlannerConfig {
   UnseenMovers unseen_movers;
   SearchConfig search;
   OptimizationConfig optimization;
+  ErrorPriceConfig error_price;
 
   template <typename V>
   void visit(V& v) {
@@ -143,6 +157,7 @@ struct PlannerConfig {
     v("unseen_movers", unseen_movers);
     v("search", search);
     v("optimization", optimization);
+    v("semantics", error_price);
   }
 };
 

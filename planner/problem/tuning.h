@@ -74,6 +74,14 @@ inline constexpr double kReturnShares[] = {0.25, 0.5, 0.75, 1.0};
 inline constexpr int kTightenPasses = 3;
 inline constexpr int kPullHalvings = 6;
 
+/// A way is flown at this share of v_max on the whole.
+inline constexpr double kCruiseShare = 0.9;
+/// Information is prepared this far around textures, m. From a height of 1 m the ground is seen as far.
+inline constexpr double kAroundTexture = 8.0;
+/// Places up to this far above start and goal are looked at, in layers at least this far apart, m.
+inline constexpr double kHigherPlaces = 6.0;
+inline constexpr double kLeastLayer = 0.4;
+
 // ---- Comparing candidates (course.h, preference.h, stop_rule.h)
 
 /// How long a trajectory is assumed to be flown before the next plan: max(min_s, share · Course::step_s). The share
@@ -210,5 +218,10 @@ inline constexpr std::size_t kTracksSeen = 8;
 /// m·s of α per m of path. All tracks that are looked at weigh at most as much as the path of a slow vehicle. So the
 /// way of a fast one comes first, and tracks turn the view of one that waits.
 inline constexpr double kPathWeight = static_cast<double>(kTracksSeen) * kAlphaCap / kLeastPathSpeed;
+
+/// Growth of the error is capped at that after this much darkness, s: for a plan, so much is ahead.
+inline constexpr double kTextureDark = 2.0;
+/// The σ at which growth of variance is turned into growth of σ, m: that of a flight over some tens of metres.
+inline constexpr double kTextureSigma = 0.25;
 
 }  // namespace tern

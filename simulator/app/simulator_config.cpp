@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "runtime/class_densities.h"
 #include "simulator/app/read_sensors.h"
 
 namespace tern {
@@ -37,27 +38,6 @@ void read_vehicle(ConfigSection& section, SimulatorConfig& config) {
   config.quadrotor = flight;
 }
 
-/// Reads class of region → landmarks per m².
-decltype(LandmarkSpec::regions) read_textures(ConfigSection section, decltype(LandmarkSpec::regions) textures) {
-  std::vector<std::string> names = section.keys();
-  for (const auto& [name, density] : textures) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-  for (const std::string& name : names) {
-    const auto known = std::find_if(textures.begin(), textures.end(), [&](const auto& t) { return t.first == name; });
-    const double density =
-        section.number(name, known == textures.end() ? 0.0 : known->second,
-                       Range::at_least(0.0, LandmarkSpec::kMaxDensity), "landmarks per m² in regions of this class");
-    if (known == textures.end()) {
-      textures.emplace_back(name, density);
-    } else {
-      known->second = density;
-    }
-  }
-  section.finish();
-  return textures;
-}
-
 VioConfig read_vio(ConfigSection section) {
   VioConfig vio;
   vio.navigation.max_sigma_m = section.number(
@@ -66,7 +46,8 @@ VioConfig read_vio(ConfigSection section) {
   section.section("imu").read(vio.navigation.imu);
   section.section("camera").read(vio.navigation.camera);
   ConfigSection landmarks = section.section("landmarks");
-  vio.landmarks.regions = read_textures(landmarks.section("regions"), vio.landmarks.regions);
+  vio.landmarks.regions = read_class_densities(landmarks.section("regions"), vio.landmarks.regions,
+                                               LandmarkSpec::kMaxDensity, "landmarks per m² in regions of this class");
   landmarks.read(vio.landmarks);
   section.section("tracks").read(vio.tracks);
   section.finish();

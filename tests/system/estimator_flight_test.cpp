@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "campaign/virtual_system.h"
+#include "core/world/body.h"
 #include "core/world/inertial.h"
 #include "messages/channels.h"
+#include "planner/planning_world.h"
 #include "simulator/app/simulator_node.h"
 #include "tests/support/effort.h"
 #include "tests/support/watched_flight.h"
@@ -29,10 +33,12 @@ struct Judged {
 /// Flies a scenario on the estimate.
 class EstimatedFlightJudge {
  public:
-  EstimatedFlightJudge(const std::string& scenario, int seed)
-      : system_(scenario_file(scenario),
-                {"simulator.estimation=vio", "semantics.enabled=false", "seed=" + std::to_string(seed)}) {
+  EstimatedFlightJudge(const std::string& scenario, int seed, const std::string& setting = "semantics.enabled=false")
+      : system_(scenario_file(scenario), {"simulator.estimation=vio", setting, "seed=" + std::to_string(seed)}) {
     Bus& bus = system_.runner().observer();
+    bus.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) {
+      if (!map_ && maps_.add(chunk).value_or(false)) map_ = maps_.take();
+    });
     bus.subscribe(channels::kVehicleTruth, [this](const UavState& truth) { truth_.push_back(truth); });
     bus.subscribe(channels::kOdometry, [this](const Odometry& odometry) { odometry_.push_back(odometry); });
   }
@@ -48,6 +54,23 @@ class EstimatedFlightJudge {
     }
     return out;
   }
+
+  /// The error that the labels of the flight's map foretell for the way that its planner chooses.
+  ForetoldError foretold() const {
+    const UavSpec& uav = system_.scenario().uav;
+    PlannerConfig config;
+    config.error_price.error_price = kPrice;
+    const auto map = std::make_shared<const MapProducts>(map_.value(), config);
+    const GoalFieldKey key{uav.goal, map->version, 0, body_box(uav.body), uav.flight_box, way_speed(*map, uav.limits)};
+    return foretell_error(make_goal_field(key, map, {}, uav.start), uav.start, key.speed).value();
+  }
+  /// Metres flown in truth.
+  double way() const {
+    double metres = 0.0;
+    for (std::size_t k = 1; k < truth_.size(); ++k) metres += (truth_[k].motion.p - truth_[k - 1].motion.p).norm();
+    return metres;
+  }
+  static constexpr double kPrice = 20.0;
 
  private:
   void judge(const Odometry& odometry, Judged& out) const {
@@ -73,6 +96,8 @@ class EstimatedFlightJudge {
   VirtualSystem system_;
   std::vector<UavState> truth_;
   std::vector<Odometry> odometry_;
+  MapAssembler maps_;
+  std::optional<VoxelMap> map_;
 };
 
 TEST(EstimatorFlight, AcrossALakeErrorsAreWhatTheCovarianceSays) {
@@ -99,6 +124,18 @@ TEST(EstimatorFlight, AcrossALakeErrorsAreWhatTheCovarianceSays) {
   // χ² with 3 degrees of freedom per flight: more than this has a probability of 0.1 % (Wilson and Hilferty).
   const double n = 3.0 * flights;
   EXPECT_LT(all.end_nees, n * std::pow(1.0 - 2.0 / (9.0 * n) + 3.09 * std::sqrt(2.0 / (9.0 * n)), 3));
+}
+
+TEST(EstimatorFlight, OfAPricedWayEndsWithTheErrorThatLabelsForetold) {
+  EstimatedFlightJudge judge("lake", 1, "planner.semantics.error_price=20");
+  const Judged flight = judge.fly();
+  const ForetoldError foretold = judge.foretold();
+  std::printf("way %.1f m; σ at the goal %.3f m (foretold %.3f), largest %.3f m (%.3f), %s\n", judge.way(),
+              flight.end_sigma, foretold.at_goal, flight.largest_sigma, foretold.at_worst,
+              flight.result.detail.c_str());
+  EXPECT_LT(judge.way(), 1.10 * 75.0);
+  EXPECT_LT(flight.largest_sigma, 0.45) << "low across the lake it is 0.5 m and more";
+  EXPECT_LT(std::abs(std::log(flight.end_sigma / foretold.at_goal)), std::log(1.5));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/app/answer_desk.h"
-#include "planner/heading/heading_planner.h"
+#include "planner/app/heading_desk.h"
 
 namespace tern {
 namespace {
@@ -52,10 +52,8 @@ Replanned replan(const PlanProblem& problem, const Plan& recorded) {
 }
 
 std::optional<PlanHeading> replan_heading(const PlanProblem& problem, const Plan& plan, const PlanHeading& recorded) {
-  static const std::vector<Track> kNone;
-  const auto& predictions = problem.world.predictions;
-  auto again = plan_heading(problem.request, plan, predictions ? predictions->set.tracks : kNone, problem.heading,
-                            {recorded.control_points[0], recorded.control_points[1]});
+  auto again = plan_heading_in(problem.world, problem.request, plan, problem.heading,
+                               {recorded.control_points[0], recorded.control_points[1]});
   if (again) again->header = recorded.header;
   return again;
 }

@@ -132,14 +132,19 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
     return fail(fmt::format("static tracks {:016x} of predictor {} from set {} on", from.statics, from.statics_epoch_us,
                             from.statics_first_set));
   }
-  GoalFieldKey key{goal->second.position, from.map_version, from.statics, body_box(configuration.uav.body),
-                   configuration.uav.flight_box};
+  GoalFieldKey key{goal->second.position,
+                   from.map_version,
+                   from.statics,
+                   body_box(configuration.uav.body),
+                   configuration.uav.flight_box,
+                   way_speed(**map, configuration.uav.limits)};
   Vec3 start = configuration.uav.start;
   if (from.vehicle != MessageName{}) {
     const auto request = inputs_.requests.find(from.vehicle);
     if (request == inputs_.requests.end()) return fail("request " + text(from.vehicle) + " (for the path to the goal)");
     key.body = body_box(grown(request->second.body, request->second.tube));
     key.flight_box = request->second.flight_box;
+    key.speed = way_speed(**map, request->second.limits);
     start = request->second.start.p;
   }
   auto field = field_of(key, start, *map, *statics->second);
