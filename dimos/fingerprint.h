@@ -87,20 +87,20 @@ class Fingerprinter {
   void add(std::string_view name, std::string_view type, const std::vector<Dimension>& dimensions = {}) {
     mix(name);
     if (!type.empty()) mix(type);
-    mix(static_cast<char>(dimensions.size()));
+    mix(static_cast<std::uint8_t>(dimensions.size()));
     for (const Dimension& dimension : dimensions) {
-      mix(static_cast<char>(dimension.size));
+      mix(static_cast<std::uint8_t>(dimension.size));
       mix(dimension.text);
     }
   }
   void mix(std::string_view text) {
-    mix(static_cast<char>(text.size()));
-    for (const char c : text) mix(c);
+    mix(static_cast<std::uint8_t>(text.size()));
+    for (const char c : text) mix(static_cast<std::uint8_t>(c));
   }
-  /// (h·2⁸ ⊕ h/2⁵⁵) + c, where h is a signed number.
-  void mix(char c) {
+  /// (h·2⁸ ⊕ h/2⁵⁵) + byte, where h is a signed number. Bytes are below 128: names are ASCII.
+  void mix(std::uint8_t byte) {
     const auto high = static_cast<std::uint64_t>(static_cast<std::int64_t>(hash_) >> 55);
-    hash_ = (hash_ << 8U ^ high) + static_cast<std::uint64_t>(static_cast<std::int64_t>(c));
+    hash_ = (hash_ << 8U ^ high) + byte;
   }
 
   std::uint64_t hash_ = 0x12345678;  ///< LCM's initial value

@@ -31,7 +31,7 @@ class Placement {
   [[nodiscard]] ros::Pose in_dimos(const ros::Pose& pose) const;
 
   std::string frame_;
-  ros::RigidTransform T_WD_;
+  ros::RigidTransform pose_WD_;
 };
 
 }  // namespace tern::dimos
