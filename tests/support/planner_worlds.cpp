@@ -258,8 +258,8 @@ PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const Horizo
   for (const Track& track : world.predictions->set.tracks) {
     if (track.kind == TrackKind::Static) statics.push_back(track.bounds(track.motion.start, track.motion.start));
   }
-  const GoalFieldKey key{goal.position, products->version, digest_of(statics), body_box(request.body),
-                         request.flight_box, way_speed(*products, request.limits)};
+  const GoalFieldKey key{goal.position,          products->version,  digest_of(statics),
+                         body_box(request.body), request.flight_box, way_speed(*products, request.limits)};
   auto field = std::make_shared<const GoalField>(make_goal_field(key, products, statics, request.start.p));
   world.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), {}});
   return world;
