@@ -59,14 +59,10 @@ TEST(TextureTerm, WeighsAtMostTheErrorOfSomeSecondsInTheDark) {
 
 /// Straight along x at 4 m/s in the hall.
 TimedSpline straight() {
-  TimedSpline t;
-  t.start = kZero;
-  t.interval = Duration{300'000};
-  t.control_points.resize(3, 9);
-  t.control_points.row(0) << 0.0, 0.4, 1.2, 2.4, 3.6, 4.8, 5.2, 5.2, 5.2;
-  t.control_points.row(1).setZero();
-  t.control_points.row(2).setConstant(1.0);
-  return t;
+  const double x[] = {0.0, 0.4, 1.2, 2.4, 3.6, 4.8, 5.2, 5.2, 5.2};
+  Points points = Points::Constant(3, 9, 1.0);
+  for (int k = 0; k < 9; ++k) points.col(k) = Vec3(x[k], 0.0, 1.0);
+  return {kZero, Duration{300'000}, points};
 }
 
 double yaw_at_end(double view_deg, const LookTerm* texture) {
