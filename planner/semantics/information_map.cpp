@@ -145,7 +145,7 @@ void InformationMap::look_around(const SurfaceMap& surfaces, const Vec3& eye) {
     const std::size_t first = sights_.size() - 1 - idx(heading);
     if (sights_.back().growth < sights_[first + idx(best)].growth) best = heading;
   }
-  best_.push_back(static_cast<std::int8_t>(best));
+  best_.push_back(static_cast<std::uint8_t>(best));
 }
 
 const Sight& InformationMap::sight(const Vec3& p, double x, double y) const { return sight(p, heading_of(x, y)); }

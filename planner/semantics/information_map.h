@@ -71,8 +71,8 @@ class InformationMap {
   double x0_ = 0.0, y0_ = 0.0, step_ = kSpacing, inverse_step_ = 1.0;
   int nx_ = 1, ny_ = 1;
   std::vector<double> heights_;
-  std::vector<Sight> sights_;      ///< kRays per place
-  std::vector<std::int8_t> best_;  ///< per place: the heading of least growth
+  std::vector<Sight> sights_;       ///< kRays per place
+  std::vector<std::uint8_t> best_;  ///< per place: the heading of least growth
 };
 
 /// Returns what a ray in this horizontal direction (unit) sees. Of a turn it represents `width` radians.
