@@ -153,7 +153,7 @@ class Checker:
             key = value.split("=")[0]
             section, _, rest = key.partition(".")
             if option == "--set" and section in PROCESSES and rest and not re.search(r"[…A-Z<\[{]", key):
-                if rest not in self.keys and not any(k.startswith(rest + ".") or rest.startswith(k + ".") for k in self.keys):
+                if rest not in self.keys and not any(k.startswith((rest + ".", rest + "[].")) or rest.startswith(k + ".") for k in self.keys):
                     self.breaches.append(f"{where}: --set {key}: no such key in docs/reference/keys.md")
             if option in ("--scenario", "--world", "--check") and not re.search(r"[…A-Z<$]", value) and not value.startswith("-"):
                 places = (ROOT / value, ROOT / "scenarios" / value, ROOT / "scenarios" / f"{value}.yaml")
