@@ -59,8 +59,8 @@ SurfaceMap SurfaceMap::with_obstacles(const std::vector<Box>& boxes) const {
   for (const Box& box : boxes) made.extent_.extend(box);
   made.lay_grid(made.extent_);
   for (int k = 0; k < static_cast<int>(made.columns_.size()); ++k) {
-    made.columns_[idx(k)] =
-        at(made.x0_ + (k % made.nx_ + 0.5) * made.step_, made.y0_ + (k / made.nx_ + 0.5) * made.step_);
+    const int row = k / made.nx_, column = k % made.nx_;
+    made.columns_[idx(k)] = at(made.x0_ + (column + 0.5) * made.step_, made.y0_ + (row + 0.5) * made.step_);
   }
   for (const Box& box : boxes) made.put_obstacle(box);
   return made;
