@@ -11,7 +11,7 @@ namespace tern {
 const char* to_string(Topic topic) {
   constexpr std::array<const char*, kTopics> kNames = {
       "session", "player", "state", "truth",  "tracks", "request", "plan",   "timing", "hulls", "tracked", "search",
-      "map",     "health", "goal",  "result", "chart",  "path",    "fields", "events", "ghost", "views"};
+      "map",     "health", "goal",  "result", "chart",  "path",    "fields", "events", "ghost", "views",   "estimate"};
   return kNames.at(idx(topic));
 }
 

@@ -27,14 +27,15 @@ enum class Topic : std::uint8_t {
   Health,   ///< every process
   Goal,
   Result,
-  Chart,   ///< the fields that pages chart, over the whole flight
-  Path,    ///< the flown path
-  Fields,  ///< names of all fields that can be charted
-  Events,  ///< marks of the timeline
-  Ghost,   ///< the path of another log
-  Views,   ///< fields of view of the sensors, and the planned heading
+  Chart,     ///< the fields that pages chart, over the whole flight
+  Path,      ///< the flown path
+  Fields,    ///< names of all fields that can be charted
+  Events,    ///< marks of the timeline
+  Ghost,     ///< the path of another log
+  Views,     ///< fields of view of the sensors, and the planned heading
+  Estimate,  ///< the estimator's pose with its bound, the true vehicle beside it, and the features in view
 };
-inline constexpr int kTopics = 21;
+inline constexpr int kTopics = 22;
 const char* to_string(Topic topic);
 
 /// Holds the newest text per topic. Thread-safe.

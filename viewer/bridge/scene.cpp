@@ -103,6 +103,18 @@ void Scene::receive(const PlanHeading& message) {
   mark(Topic::Views);
 }
 
+void Scene::receive(const Odometry& message) {
+  odometry_ = message;
+  mark(Topic::Estimate);
+  if (memory_ == nullptr || !memory_->history.keeps_row("estimate", message.at)) return;
+  remember("estimate", message.at, estimate_numbers(*this));
+}
+
+void Scene::receive(const FeatureFrame& message) {
+  features_ = message;
+  mark(Topic::Estimate);
+}
+
 void Scene::receive(const PlanTiming& message) {
   timing_ = message;
   mark(Topic::Timing);

@@ -11,6 +11,7 @@
 #include "core/world/goal.h"
 #include "core/world/health.h"
 #include "core/world/horizon.h"
+#include "core/world/inertial.h"
 #include "core/world/observation.h"
 #include "core/world/plan_heading.h"
 #include "core/world/search_view.h"
@@ -78,6 +79,8 @@ class Scene {
   void receive(const Plan& message);
   void receive(const PlanHeading& message);
   void receive(const PlanTiming& message);
+  void receive(const Odometry& message);
+  void receive(const FeatureFrame& message);
   void receive(const SearchView& message);
   void receive(const Goal& message);
   void receive(const FlightResult& message);
@@ -102,6 +105,11 @@ class Scene {
   [[nodiscard]] const std::optional<PlanHeading>& heading() const { return heading_; }
   /// Returns the newest frame of each sensor with a view, by its id.
   [[nodiscard]] const std::map<std::int32_t, SightingSet>& sightings() const { return sightings_; }
+  /// Returns the estimator's newest ODOMETRY and FEATURE_TRACKS.
+  [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
+  [[nodiscard]] const std::optional<FeatureFrame>& features() const { return features_; }
+  /// Returns the newest VEHICLE_TRUTH.
+  [[nodiscard]] const std::optional<UavState>& true_state() const { return true_state_; }
   [[nodiscard]] const std::optional<PlanTiming>& timing() const { return timing_; }
   [[nodiscard]] const std::optional<SearchView>& search() const { return search_; }
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
@@ -153,6 +161,8 @@ class Scene {
   std::optional<Plan> plan_;
   std::optional<PlanHeading> heading_;
   std::map<std::int32_t, SightingSet> sightings_;
+  std::optional<Odometry> odometry_;
+  std::optional<FeatureFrame> features_;
   std::optional<PlanTiming> timing_;
   std::optional<SearchView> search_;
   std::optional<Goal> goal_;

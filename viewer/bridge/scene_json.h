@@ -25,6 +25,11 @@ std::string tracked_json(const Scene& scene, const TrackAges& ages);
 /// Outlines of the fields of view, from the newest frame of each sensor, two points per line. The heading along the
 /// newest plan: [x, y, z, yaw, …].
 std::string views_json(const Scene& scene);
+/// The estimate of the position, the axes of its 99 % ellipsoid, and the true vehicle. The axes are half-lengths and a
+/// quaternion w, x, y, z. The features of the newest frame are [x, y, z, moves, …], with 1 on a moving obstacle.
+std::string estimate_json(const Scene& scene);
+/// Distance of the estimate from the truth and the half-length of the ellipsoid's longest axis, m; NaN if unknown.
+NumberFields estimate_numbers(const Scene& scene);
 /// Edges of the search tree, six numbers each.
 std::string search_json(const Scene& scene);
 std::string map_json(const Scene& scene);

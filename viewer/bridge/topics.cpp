@@ -47,6 +47,7 @@ std::string topic_json(Topic topic, const TopicSource& source) {
     case Topic::Tracked: return tracked_json(scene, source.memory.ages);
     case Topic::Search: return search_json(scene);
     case Topic::Views: return views_json(scene);
+    case Topic::Estimate: return estimate_json(scene);
     case Topic::Map: return map_json(scene);
     case Topic::Health: return health_json(scene, source.now);
     case Topic::Goal: return goal_json(scene);

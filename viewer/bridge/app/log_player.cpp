@@ -32,7 +32,7 @@ bool is_remembered(std::string_view channel) {
   constexpr std::tuple kRemembered{channels::kUavState,       channels::kVehicleTruth, channels::kObstacleTruth,
                                    channels::kHorizonRequest, channels::kPlan,         channels::kPlanTiming,
                                    channels::kGoal,           channels::kHeartbeat,    channels::kFlightResult,
-                                   channels::kSemanticMap};
+                                   channels::kSemanticMap,    channels::kOdometry};
   return visit_channel(
       channel, [](const auto&) {}, kRemembered);
 }

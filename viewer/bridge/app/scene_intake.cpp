@@ -15,10 +15,10 @@ namespace {
 using namespace channels;
 
 /// The channels that the page shows.
-constexpr std::tuple kShown{kUavState,    kVehicleTruth,   kObstacleTruth, kObstacleObservations,
-                            kPredictions, kHorizonRequest, kPlan,          kPlanTiming,
-                            kSearchView,  kSemanticMap,    kGoal,          kFlightResult,
-                            kHeartbeat,   kConfiguration,  kPlanHeading,   kObstacleSightings};
+constexpr std::tuple kShown{
+    kUavState,  kVehicleTruth,  kObstacleTruth, kObstacleObservations, kPredictions, kHorizonRequest,
+    kPlan,      kPlanTiming,    kSearchView,    kSemanticMap,          kGoal,        kFlightResult,
+    kHeartbeat, kConfiguration, kPlanHeading,   kObstacleSightings,    kOdometry,    kFeatureTracks};
 
 }  // namespace
 

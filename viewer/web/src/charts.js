@@ -174,6 +174,13 @@ export class Charts {
     this.handlers.wants(this.names());
   }
 
+  /** Adds a chart of these curves unless one of them is shown. */
+  offer(names) {
+    if (names.some((name) => this.names().includes(name)) || this.charts.length >= MOST_CHARTS) return;
+    this.append(names);
+    this.handlers.wants(this.names());
+  }
+
   change(chart, names) {
     if (names.length === 0 && this.charts.length > 1) {
       chart.watcher.disconnect();

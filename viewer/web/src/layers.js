@@ -15,6 +15,7 @@ export const LAYERS = [
   { name: 'hulls', on: false, says: 'where moving obstacles may be during the first second of the plan', colors: [palette.hull] },
   { name: 'tracks', on: false, says: 'detections; predicted obstacles with α, by id and age', colors: [palette.detection, palette.track] },
   { name: 'views', on: true, says: 'fields of view of the sensors, and the planned heading', colors: [palette.view] },
+  { name: 'estimate', on: true, says: 'the estimate with its 99 % bound, the true vehicle, features in view', colors: [palette.estimate, palette.truth, palette.feature] },
   { name: 'planes', on: false, says: 'of the certificate, where bounding boxes do not separate plan and obstacle', colors: [palette.plane] },
   { name: 'search', on: false, says: 'tree of the last search', colors: [palette.search] },
   { name: 'ghost', on: true, says: 'the other log', colors: [palette.ghost] },

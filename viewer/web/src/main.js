@@ -6,6 +6,7 @@ import './time.css';
 import './small.css';
 import { Charts } from './charts.js';
 import { Controls } from './controls.js';
+import { Estimate } from './estimate.js';
 import { Ghost } from './ghost.js';
 import * as hud from './hud.js';
 import { Inspector } from './inspector.js';
@@ -39,6 +40,7 @@ const regions = new Regions(world, vehicle.p);
 const obstacles = new Obstacles(world, vehicle.p);
 const tracks = new Tracks(world.scene, vehicle.p);
 const views = new Views(world.scene);
+const estimate = new Estimate(world.scene);
 const tags = new Tags(document.getElementById('tags'));
 const ghost = new Ghost(world.scene);
 const layers = {};
@@ -134,6 +136,11 @@ const topics = {
     views.take(message);
     offer('views', message);
   },
+  estimate(message) {
+    estimate.take(message);
+    offer('estimate', message);
+    if (message && !known.estimate) charts.offer(['estimate.error_m', 'estimate.bound_m']);
+  },
   ghost(message) {
     if (message) ghost.take(message);
     else ghost.clear();
@@ -168,11 +175,12 @@ function takeReply(message) {
 /** Starts over: another bridge, another flight, or its log. */
 function forget() {
   for (const key of Object.keys(known)) delete known[key];
-  for (const part of [obstacles, trajectories, proofs, tracks, views, vehicle, regions, ghost, cameras]) part.clear();
+  for (const part of [obstacles, trajectories, proofs, tracks, views, estimate, vehicle, regions, ghost, cameras]) part.clear();
   hud.forget();
   timeline.takeEvents([]);
   offer('ghost', false);
   offer('views', false);
+  offer('estimate', false);
 }
 
 // Layers -------------------------------------------------------------------------------------------------------------
@@ -184,7 +192,7 @@ function sendSubscriptions() {
 
 function setLayer(name, on) {
   layers[name] = on;
-  for (const part of [trajectories, proofs, tracks, views, regions, ghost]) part.show(name, on);
+  for (const part of [trajectories, proofs, tracks, views, estimate, regions, ghost]) part.show(name, on);
   if (name === 'obstacles') obstacles.show(on);
   if (ON_DEMAND.includes(name)) send({ layers: ON_DEMAND.filter((other) => layers[other]) });
   if (name === 'planes') proofs.takePlanes(on ? known.plan : null, obstacles.pickedId);
@@ -194,6 +202,7 @@ function setLayer(name, on) {
 makeSwitches(document.getElementById('layers'), setLayer);
 offer('ghost', false);
 offer('views', false);
+offer('estimate', false);
 
 let cutShare = 1;
 function showCut() {

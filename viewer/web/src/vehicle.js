@@ -7,9 +7,9 @@ const GRAVITY = 9.81;
 const LONGEST_GUESS_S = 0.12;
 const MODEL_RADIUS = 0.18 * Math.SQRT2 + 0.115; // m: to the rotors' tips
 
-function model() {
+export function model(color = palette.vehicle) {
   const group = new THREE.Group();
-  const shell = new THREE.MeshLambertMaterial({ color: palette.vehicle, emissive: palette.vehicle, emissiveIntensity: 0.18 });
+  const shell = new THREE.MeshLambertMaterial({ color, emissive: color, emissiveIntensity: 0.18 });
   const dark = new THREE.MeshLambertMaterial({ color: '#39434f', emissive: '#0d1116' });
   const body = new THREE.Mesh(new THREE.SphereGeometry(0.1, 20, 12), shell);
   body.scale.set(1.35, 0.9, 0.55);
@@ -18,7 +18,7 @@ function model() {
   nose.position.set(0.125, 0, 0.012);
   group.add(body, nose);
   const disc = new THREE.MeshBasicMaterial({
-    color: palette.vehicle, transparent: true, opacity: 0.4, depthWrite: false, side: THREE.DoubleSide });
+    color, transparent: true, opacity: 0.4, depthWrite: false, side: THREE.DoubleSide });
   for (const [sx, sy] of [[1, 1], [1, -1], [-1, 1], [-1, -1]]) {
     const arm = new THREE.Mesh(new THREE.BoxGeometry(0.25, 0.026, 0.02), dark);
     arm.position.set(0.09 * sx, 0.09 * sy, 0);
