@@ -105,7 +105,9 @@ class UnseenCheck {
     const double rest_s = (request.committed.end() - request.t_s).seconds();
     const double late_s = (request.t_s - space_.at()).seconds(), radius = radius_of(request);
     if (space_.frames() == 0) return 0.0;
-    for (double s = 0.0; s < rest_s; s += kTick) {
+    const int ticks = static_cast<int>(std::ceil(rest_s / kTick));
+    for (int k = 0; k < ticks; ++k) {
+      const double s = k * kTick;
       const MotionSample m = motion_at(curves, request.t_s + Duration::from_seconds(s));
       const double margin = 0.5 * kTick * (m.v.head<2>().norm() + mover_.max_speed);
       if (space_.distance(m.p.head<2>()) - mover_.max_speed * (s + late_s) <= radius + margin) return s;
