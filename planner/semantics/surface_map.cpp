@@ -58,9 +58,11 @@ SurfaceMap SurfaceMap::with_obstacles(const std::vector<Box>& boxes) const {
   SurfaceMap made = *this;
   for (const Box& box : boxes) made.extent_.extend(box);
   made.lay_grid(made.extent_);
-  for (int k = 0; k < static_cast<int>(made.columns_.size()); ++k) {
-    const int row = k / made.nx_, column = k % made.nx_;
-    made.columns_[idx(k)] = at(made.x0_ + (column + 0.5) * made.step_, made.y0_ + (row + 0.5) * made.step_);
+  std::size_t k = 0;
+  for (int row = 0; row < made.ny_; ++row) {
+    for (int column = 0; column < made.nx_; ++column) {
+      made.columns_[k++] = at(made.x0_ + (column + 0.5) * made.step_, made.y0_ + (row + 0.5) * made.step_);
+    }
   }
   for (const Box& box : boxes) made.put_obstacle(box);
   return made;
