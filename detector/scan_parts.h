@@ -15,12 +15,14 @@ namespace tern {
 
 /// Collects the messages of each sensor. Messages with the same time are one measurement.
 ///
-/// | event                                          | effect on the measurement that waits                 |
+/// | event                                          | effect                                               |
 /// |------------------------------------------------|------------------------------------------------------|
-/// | a message of another time                      | complete                                             |
-/// | kPatience without a message                   | complete                                             |
-/// | an image has as many rows as the one before it | complete                                             |
+/// | a message of another time                      | the measurement that waits is complete               |
+/// | kPatience without a message                    | the same                                             |
+/// | an image has as many rows as the one before it | the same                                             |
 /// | a newer one is complete before it was taken    | left out: only the newest one of a sensor is used    |
+/// | the measurement would exceed kMaxValues        | the message is refused                               |
+/// | a message of more than kMaxSensors sensors     | the same                                             |
 ///
 /// @tparam M  DepthImage or CloudScan
 template <class M>
@@ -29,18 +31,22 @@ class ScanParts {
   /// A measurement is complete this long after its last message.
   static constexpr Duration kPatience{50'000};
   static constexpr std::size_t kMaxSensors = 16;
+  static constexpr std::size_t kMaxValues = 2'097'152;  ///< depths or points
 
   /// A whole measurement.
   struct Whole {
     std::vector<M> parts;
-    int rows = 0;  ///< DepthImage: the number of rows that were sent
+    std::size_t values = 0;  ///< in all parts
+    int rows = 0;            ///< DepthImage: the number of rows that were sent
   };
 
-  /// @return false if there are too many sensors
+  /// @return false if the message is refused
   bool add(const M& part, UTime received) {
     if (!sensors_.contains(part.sensor_id) && sensors_.size() >= kMaxSensors) return false;
     Sensor& sensor = sensors_[part.sensor_id];
     if (!sensor.waiting.parts.empty() && sensor.waiting.parts.front().at != part.at) finish(sensor);
+    if (sensor.waiting.values + values_of(part) > kMaxValues) return false;
+    sensor.waiting.values += values_of(part);
     sensor.waiting.parts.push_back(part);
     sensor.waiting.rows = std::max(sensor.waiting.rows, last_row(part));
     sensor.received = received;
@@ -78,6 +84,8 @@ class ScanParts {
     UTime received;
     int rows = 0;  ///< of the last whole image
   };
+  static std::size_t values_of(const DepthImage& part) { return part.depths.size(); }
+  static std::size_t values_of(const CloudScan& part) { return part.points.size(); }
   static int last_row(const DepthImage& part) {
     return part.first_row + static_cast<int>(part.depths.size()) / std::max(part.width, 1);
   }

@@ -24,7 +24,13 @@ bool same_image(const DepthImage& a, const DepthImage& b) {
          a.sensor_position == b.sensor_position && a.range_m == b.range_m;
 }
 
-double range_of(double range_m) { return range_m > 0.0 ? range_m : kUnlimited; }
+/// Returns the sensor's range, m; an Error if it measures nothing beyond `least_range_m`.
+Result<double> range_of(const char* what, std::int32_t sensor, double range_m, double least_range_m) {
+  const double range = range_m > 0.0 ? range_m : kUnlimited;
+  if (range > least_range_m) return range;
+  return fail(fmt::format("{} of sensor {}: its range of {:g} m is not beyond the least range of {:g} m", what, sensor,
+                          range, least_range_m));
+}
 
 /// The depths of a whole image, m; 0: not measured.
 Result<std::vector<float>> whole_image(std::span<const DepthImage> parts, int height) {
@@ -78,13 +84,20 @@ Result<DepthPicture> picture_of(std::span<const DepthImage> parts, int height, c
   if (parts.empty()) return fail("depth image: no message");
   const DepthImage& first = parts.front();
   if (height < 1) return fail(fmt::format("depth image of sensor {}: height {} is below 1", first.sensor_id, height));
+  const int block = std::min((first.width + kMostColumns - 1) / kMostColumns, height);
+  const std::int64_t pixels = std::int64_t{first.width} * height;
+  if (pixels > kMostImagePixels || (first.width / block) * (height / block) > kMostPicturePixels) {
+    return fail(
+        fmt::format("depth image of sensor {}: {} × {} pixels are too many", first.sensor_id, first.width, height));
+  }
+  const auto range = range_of("depth image", first.sensor_id, first.range_m, least_range_m);
+  if (!range) return tl::unexpected(range.error());
   const Result<std::vector<float>> depths = whole_image(parts, height);
   if (!depths) return tl::unexpected(depths.error());
 
-  const int block = std::min((first.width + kMostColumns - 1) / kMostColumns, height);
   DepthSensor sensor;
   sensor.least_range_m = least_range_m;
-  sensor.range_m = range_of(first.range_m);
+  sensor.range_m = *range;
   sensor.noise = noise;
   sensor.noise.block = (noise.block + block - 1) / block;
   sensor.shape.columns = first.width / block;
@@ -108,11 +121,13 @@ Result<DepthPicture> picture_of(std::span<const DepthImage> parts, int height, c
 Result<DepthPicture> picture_of(std::span<const CloudScan> parts, const DepthNoise& noise, double least_range_m) {
   if (parts.empty()) return fail("point cloud: no message");
   const CloudScan& first = parts.front();
+  const auto range = range_of("point cloud", first.sensor_id, first.range_m, least_range_m);
+  if (!range) return tl::unexpected(range.error());
   DepthSensor sensor;
   sensor.shape =
       lidar_shape(2.0 * std::numbers::pi, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi, kAzimuths, kElevations);
   sensor.least_range_m = least_range_m;
-  sensor.range_m = range_of(first.range_m);
+  sensor.range_m = *range;
   sensor.noise = noise;
   DepthPicture picture(std::make_shared<RayGrid>(sensor));
   picture.move_to(looking(first.sensor_position, 0.0));

@@ -1,6 +1,7 @@
 // Depth pictures of real sensors: from DEPTH_IMAGE and POINT_CLOUD.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "core/base/result.h"
@@ -11,6 +12,10 @@ namespace tern {
 
 /// Larger images are reduced to at most this many columns: enough for things of 0.2 m at 10 m.
 inline constexpr int kMostColumns = 160;
+/// Larger images are refused: more than a 1920 × 1080 image.
+inline constexpr std::int64_t kMostImagePixels = 2'097'152;
+/// So are images that stay larger than this when reduced: they are too narrow.
+inline constexpr int kMostPicturePixels = 51'200;
 
 /// Returns the picture of a depth image of `height` rows. Its rows may have come in several messages of one time;
 /// missing rows count as not measured. With more than kMostColumns columns, blocks of equal size become one pixel: the
@@ -18,8 +23,8 @@ inline constexpr int kMostColumns = 160;
 /// @param parts   the messages of one image
 /// @param noise   of the depths, per pixel of the image
 /// @param least_range_m  nearer depths are not measured, for instance those of the vehicle's own body, ≥ 0
-/// @return an Error that names the trouble: no message, messages of different images, rows beyond the height, or no
-///   measured pixel
+/// @return an Error that names the trouble: no message, messages of different images, rows beyond the height, too many
+///   pixels, a range within least_range_m, or no measured pixel
 Result<DepthPicture> picture_of(std::span<const DepthImage> parts, int height, const DepthNoise& noise,
                                 double least_range_m);
 

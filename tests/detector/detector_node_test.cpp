@@ -120,6 +120,48 @@ TEST_F(DetectorNodeTest, ACameraThatFreezesInFlightIsNamedAndNotUsed) {
   EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 3 is frozen"));
 }
 
+TEST_F(DetectorNodeTest, AnImageThatNoMemoryHoldsIsNamedAndCostsNothing) {
+  DepthImage lie;
+  lie.width = 28'800;
+  lie.first_row = 1'000'000;
+  lie.depths.assign(28'800, 1'000);
+  send({lie});
+  run(0.1);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 3: 28800 × 1000001 pixels are too many"));
+  lie.width = 1;
+  lie.first_row = 900'000;
+  lie.depths.resize(20'000);
+  send({lie});
+  run(0.1);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("1 × 920000 pixels are too many"));
+  EXPECT_TRUE(frames_.empty());
+  send_image(0.0);
+  run(0.1);
+  EXPECT_EQ(frames_.size(), 1u) << "it goes on";
+}
+
+TEST_F(DetectorNodeTest, ASensorThatMeasuresNothingBeyondTheLeastRangeIsNamed) {
+  scene_.render(looking(Vec3(0, 0, 1), 0.0), {kBox}, 0.0);
+  auto parts = support::depth_images(scene_.picture, 50);
+  for (DepthImage& part : parts) part.range_m = 0.1;
+  send(parts);
+  run(0.1);
+  EXPECT_TRUE(frames_.empty());
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("its range of 0.1 m is not beyond the least range of 0.2 m"));
+}
+
+TEST(ScanParts, AnEndlessMeasurementIsRefusedAtItsLimit) {
+  ScanParts<CloudScan> parts;
+  CloudScan scan;
+  scan.points.resize(kMaxCloudPointsPerMessage);
+  const int fits = static_cast<int>(ScanParts<CloudScan>::kMaxValues / scan.points.size());
+  for (int k = 0; k < fits; ++k) EXPECT_TRUE(parts.add(scan, UTime{k}));
+  EXPECT_FALSE(parts.add(scan, UTime{fits}));
+  ASSERT_EQ(parts.take(UTime{fits} + Duration{60'000}).size(), 1u);
+  scan.at = UTime{1};
+  EXPECT_TRUE(parts.add(scan, UTime{200'000}));
+}
+
 TEST_F(DetectorNodeTest, PointsOnTheMapAreNoSightings) {
   VoxelMap map = support::free_map({24, 8, 8});
   support::paint(map, {16, 0, 0}, {19, 7, 7}, VoxelLabel::Occupied);  // x from 4 to 5 m
