@@ -31,24 +31,9 @@ Vec3 PersistentError::add(const Vec3& error, UTime received) {
   return least;
 }
 
-void Tube::on_answer(const Plan& plan, bool rests, const Vec3& p, UTime at) {
-  const bool is_new = plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted;
-  const bool stalls = has_stalled(plan, p, at);
-  if (is_new && !stalled_here_) speed_up(at);
-  if ((stalls && halvings_ < kStallHalvings) || (rests && is_blocked(plan))) slow_down(at);
-}
-
-/// A passage may be just too narrow for the tube: then plans are found, but none that leads through it.
-bool Tube::has_stalled(const Plan& plan, const Vec3& p, UTime at) {
-  if (!place_ || (p - *place_).norm() > kStallRadius || plan.reason == PlanReason::AtGoal) {
-    place_ = p;
-    placed_ = at;
-    stalled_here_ = false;
-  }
-  if (at - placed_ < kStall) return false;
-  placed_ = at;
-  stalled_here_ = true;
-  return true;
+void Tube::on_answer(const Plan& plan, bool rests, UTime at) {
+  if (plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted) speed_up(at);
+  if (rests && is_blocked(plan)) slow_down(at);
 }
 
 void Tube::add(const Vec3& error, bool rests, UTime at) {

@@ -55,10 +55,7 @@ class PersistentError {
 /// |                                | not: their cause was reported, and is over                                   |
 /// | the estimator is reset         | the width grows by the shift: either position, before or after, may be true  |
 /// | stationary, and no way out     | share() is halved, once in kStepPeriod, at most kMaxHalvings times           |
-/// | within kStallRadius for kStall | share() is halved, once in kStall, at most kStallHalvings times;             |
-/// |                                | not at the goal                                                              |
-/// | a plan is flown                | share() is doubled, if it has not changed during the patience, and the       |
-/// |                                | vehicle has left the place of its stall                                      |
+/// | a plan is flown                | share() is doubled, if it has not changed during the patience                |
 ///
 /// share() is the part of the vehicle's limits that requests contain. Tracking errors grow with speed and acceleration,
 /// so a slower vehicle fits through a smaller opening. Each halving also halves the width, but not below the width
@@ -78,10 +75,6 @@ class Tube {
   static constexpr Duration kStepPeriod{250'000};
   static constexpr int kMaxHalvings = 5;
   static constexpr Duration kPatience{2'000'000}, kMaxPatience{60'000'000};
-  static constexpr double kStallRadius = 1.0;   ///< m
-  static constexpr Duration kStall{4'000'000};  ///< slow movers pass by in that time
-  /// A slow vehicle sees less far ahead in time, and passes movers less easily.
-  static constexpr int kStallHalvings = 2;
 
   /// @param floor_m  smallest width, [0, kMaxTube]
   explicit Tube(double floor_m) : floor_m_(floor_m) {}
@@ -100,9 +93,8 @@ class Tube {
   void add_exit(UTime at) { exited_ = at; }
   /// The estimator has reset itself. @param by  shift of the position, m, W
   void add_shift(const Vec3& by);
-  /// Takes the planner's answer to a request.
-  /// @param rests  the committed trajectory is at rest  @param p  its position, m, W
-  void on_answer(const Plan& plan, bool rests, const Vec3& p, UTime at);
+  /// Takes the planner's answer to a request. @param rests  the committed trajectory is at rest
+  void on_answer(const Plan& plan, bool rests, UTime at);
   /// The width per axis, m. @param sigma  standard deviation of the estimate per axis, m, ≥ 0
   [[nodiscard]] Vec3 width(const Vec3& sigma, UTime now) const;
   /// The share of the vehicle's limits that requests contain, (0, 1].
@@ -111,8 +103,6 @@ class Tube {
  private:
   void slow_down(UTime at);
   void speed_up(UTime at);
-  /// Whether the vehicle has stayed near one place for kStall.
-  bool has_stalled(const Plan& plan, const Vec3& p, UTime at);
   struct Second {
     UTime start;
     Vec3 largest = Vec3::Zero();
@@ -131,10 +121,7 @@ class Tube {
   Vec3 shift_ = Vec3::Zero(), min_shift_ = Vec3::Zero(), max_shift_ = Vec3::Zero();
   std::optional<UTime> exited_, stepped_, forgot_;
   int halvings_ = 0;
-  bool stepped_up_ = false;    ///< the newest step was one up
-  std::optional<Vec3> place_;  ///< the vehicle has been near it since placed_, m, W
-  UTime placed_;
-  bool stalled_here_ = false;
+  bool stepped_up_ = false;  ///< the newest step was one up
   Duration patience_ = kPatience;
   bool has_error_ = false;
   std::array<Seconds, kMaxHalvings + 1> moving_;  ///< by halvings

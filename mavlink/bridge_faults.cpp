@@ -1,4 +1,4 @@
-// What the bridge cannot fly with.
+// The faults of which Bridge holds the inputs: estimate, parameters, setpoint.
 #include <fmt/format.h>
 
 #include "mavlink/bridge.h"

@@ -23,8 +23,10 @@ inline constexpr int kMostPicturePixels = 51'200;
 /// @param parts   the messages of one image
 /// @param noise   of the depths, per pixel of the image
 /// @param least_range_m  nearer depths are not measured, for instance those of the vehicle's own body, ≥ 0
-/// @return an Error that names the trouble: no message, messages of different images, rows beyond the height, too many
-///   pixels, a range within least_range_m, or no measured pixel
+/// @return an Error that names the trouble, if
+///   - there is no message, or messages are of different images;
+///   - rows lie beyond the height, or the pixels are too many;
+///   - the range is within least_range_m, or no pixel was measured
 Result<DepthPicture> picture_of(std::span<const DepthImage> parts, int height, const DepthNoise& noise,
                                 double least_range_m);
 

@@ -264,9 +264,7 @@ void ExecutorNode::on_plan(const Plan& plan) {
   const Adoption adoption = executor_->consider(plan, now);
   if (adoption.verdict == Verdict::Adopted) heading_.on_adopted(plan, plan.trajectory.start);
   if (adoption.verdict == Verdict::Kept && plan.request_id == asked_.first) heading_.on_kept(plan, asked_.second);
-  if (!is_refusal(adoption.verdict)) {
-    return tube_.on_answer(plan, executor_->at_rest(now), executor_->sample(now).p, now);
-  }
+  if (!is_refusal(adoption.verdict)) return tube_.on_answer(plan, executor_->at_rest(now), now);
   if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
   ++unlogged_refusals_;
   if (now < next_refusal_log_) return;

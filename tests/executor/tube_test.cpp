@@ -16,19 +16,12 @@ void blocked(Tube& tube, UTime at) {
   Plan plan;
   plan.outcome = PlanOutcome::KeepCommitted;
   plan.reason = PlanReason::GoalBlocked;
-  tube.on_answer(plan, true, Vec3::Zero(), at);
+  tube.on_answer(plan, true, at);
 }
 void flown(Tube& tube, UTime at) {
   Plan plan;
   plan.outcome = PlanOutcome::Optimized;
-  tube.on_answer(plan, false, Vec3(static_cast<double>(at.us) * 1e-6, 0.0, 0.0), at);
-}
-/// A new plan that leads nowhere.
-void stirs(Tube& tube, const Vec3& p, UTime at, PlanReason reason = PlanReason::None) {
-  Plan plan;
-  plan.outcome = PlanOutcome::SearchOnly;
-  plan.reason = reason;
-  tube.on_answer(plan, false, p, at);
+  tube.on_answer(plan, false, at);
 }
 
 TEST(Tube, OfAPerfectVehicleIsNothing) {
@@ -38,30 +31,6 @@ TEST(Tube, OfAPerfectVehicleIsNothing) {
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Zero());
   blocked(tube, kNow);
   EXPECT_EQ(tube.share(), 1.0) << "a slower one would be no nearer to its setpoints";
-}
-
-TEST(Tube, OfAVehicleThatGetsNoFurtherShrinksWithItsShareUntilItDoes) {
-  Tube tube(0.0);
-  tube.note_error(Vec3::Constant(0.1));
-  UTime at = kNow;
-  const auto stir_for = [&](Duration span, const Vec3& p, PlanReason reason = PlanReason::None) {
-    for (const UTime end = at + span; at < end; at = at + Duration{50'000}) {
-      stirs(tube, p + Vec3(0.0, 0.3 * std::sin(static_cast<double>(at.us) * 1e-6), 0.0), at, reason);
-    }
-  };
-  stir_for(Tube::kStall - Duration{100'000}, Vec3::Zero());
-  EXPECT_EQ(tube.share(), 1.0);
-  stir_for(Duration{200'000}, Vec3::Zero());
-  EXPECT_EQ(tube.share(), 0.5);
-  EXPECT_LT(tube.width(Vec3::Zero(), at).x(), 0.2);
-  stir_for(Tube::kStall, Vec3::Zero());
-  EXPECT_EQ(tube.share(), 0.25) << "plans that lead nowhere do not speed it up";
-  stir_for(Tube::kStall * 2, Vec3::Zero());
-  EXPECT_EQ(tube.share(), 0.25) << "a passage that is closed at this width is closed for another reason";
-  for (int k = 0; k < 600; ++k, at = at + Duration{50'000}) stirs(tube, Vec3(0.05 * k, 0.0, 0.0), at);
-  EXPECT_EQ(tube.share(), 1.0);
-  stir_for(Tube::kStall * 3, Vec3(99, 0, 0), PlanReason::AtGoal);
-  EXPECT_EQ(tube.share(), 1.0) << "at the goal it may stay";
 }
 
 TEST(Tube, OfAnyOtherBeginsWithWhatAWellTunedAutopilotNeeds) {
