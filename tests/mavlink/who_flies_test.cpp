@@ -5,6 +5,7 @@
 
 #include "mavlink/bridge.h"
 #include "tests/mavlink/flight_in_memory.h"
+#include "tests/support/effort.h"
 
 namespace tern::mavlink {
 namespace {
@@ -126,6 +127,7 @@ struct Race {
 /// The switch may be any short time before or after the bridge's command.
 void expect_nothing_is_overruled(const std::function<void(FlightInMemory&)>& story, std::uint16_t sought,
                                  Duration earliest, const std::string& ardupilots = "LOITER") {
+  const Duration step{support::listed_at_effort(30'000, 10'000)};
   for (const Manners manners : {Manners::Px4, Manners::ArduPilot}) {
     for (const Duration delay : {Duration{1'000}, Duration{40'000}}) {
       Race race{{}, delay, story, sought};
@@ -133,7 +135,7 @@ void expect_nothing_is_overruled(const std::function<void(FlightInMemory&)>& sto
       race.pilots = race.is_px4() ? switch_to(4, 3) : switch_to(ardupilots == "LAND" ? 9 : 5);
       race.mode = race.is_px4() ? "AUTO.LOITER" : ardupilots;
       const UTime commanded = race.commanded();
-      for (Duration offset = earliest; offset <= Duration{300'000}; offset = offset + Duration{10'000}) {
+      for (Duration offset = earliest; offset <= Duration{300'000}; offset = offset + step) {
         SCOPED_TRACE(fmt::format("{} after the command, delay {} us, PX4 {}", offset.us, delay.us, race.is_px4()));
         race.expect_the_pilot_has_it(commanded + offset);
       }

@@ -6,6 +6,7 @@
 #include "messages/codec.h"
 #include "planner/planner.h"
 #include "planner/problem/tuning.h"
+#include "tests/support/effort.h"
 #include "tests/support/flat_outputs.h"
 #include "tests/support/plan_judge.h"
 #include "tests/support/random_shares.h"
@@ -94,7 +95,8 @@ Draw random_draw(std::uint64_t seed) {
 
 TEST(Planner, NeverReturnsAPlanTheCheckerRejects) {
   int by_outcome[kPlanOutcomes] = {};
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+  const auto draws = static_cast<std::uint64_t>(support::at_effort(1000));
+  for (std::uint64_t seed = 1; seed <= draws; ++seed) {
     const Draw d = random_draw(seed);
     const Plan got = answer(d.request, d.world, d.config);
     ++by_outcome[static_cast<int>(got.outcome)];
@@ -128,7 +130,8 @@ TEST(Planner, LeavesTheGroundItStandsOnAndComesNoNearer) {
 }
 
 TEST(Planner, EveryAnswerOnTheWayIsCertifiedTooAndTheFirstIsTheFallback) {
-  for (std::uint64_t seed = 501; seed <= 560; ++seed) {
+  const auto draws = static_cast<std::uint64_t>(support::at_effort(300));
+  for (std::uint64_t seed = 5001; seed <= 5000 + draws; ++seed) {
     const Draw d = random_draw(seed);
     RecordingObserver observer;
     Budget budget = Budget::unlimited();
@@ -148,7 +151,8 @@ TEST(Planner, EveryAnswerOnTheWayIsCertifiedTooAndTheFirstIsTheFallback) {
 }
 
 TEST(Planner, TheSameRequestInTheSameWorldGivesTheSameBytes) {
-  for (std::uint64_t seed = 601; seed <= 630; ++seed) {
+  const auto draws = static_cast<std::uint64_t>(support::at_effort(150));
+  for (std::uint64_t seed = 6001; seed <= 6000 + draws; ++seed) {
     const Draw first = random_draw(seed);
     const Draw second = random_draw(seed);
     ASSERT_EQ(encode(answer(first.request, first.world, first.config)),
