@@ -31,7 +31,7 @@ struct EstimatorConfig {
   ImuNoise noise;
   double gravity = kGravity;           ///< m/s²
   int clones = 11;                     ///< poses of past frames in the state
-  int features_per_update = 30;        ///< features used with one frame; others wait for the next one
+  int features_per_update = 30;        ///< features used with one frame; further ended tracks are dropped
   double rest_s = 1.0;                 ///< how long the vehicle must rest at the start, s
   double start_deviation = 1e-3;       ///< of the position there, per axis, m
   double start_yaw_deviation = 1e-3;   ///< rad
@@ -45,7 +45,8 @@ struct EstimatorConfig {
     v("gravity", gravity, Range{9.7, 9.9}, "magnitude of gravity, m/s²");
     v("clones", clones, Range{3, 30}, "number of past poses in the filter's state");
     v("features_per_update", features_per_update, Range{1, 500},
-      "largest number of features in the update of one frame; others wait for the next frame");
+      "largest number of features in the update of one frame; ended tracks beyond it are dropped, others wait for the "
+      "next frame");
     v("rest_s", rest_s, Range{0.5, 60.0}, "how long the vehicle must rest before the estimate begins, s");
     v("start_deviation_m", start_deviation, Range::positive(1e3), "standard deviation of the start per axis, m");
     v("start_yaw_deviation", start_yaw_deviation, Range::positive(3.0), "standard deviation of the yaw there, rad");

@@ -103,6 +103,7 @@ std::optional<double> Referee::arrival(const FlownPiece& piece, double t0_s, dou
 
 void Referee::set_goal(const std::optional<Vec3>& goal) {
   if (goal == goal_) return;
+  goal_changed_ = goal_changed_ || (goal_ && now_ > Duration{});
   goal_ = goal;
   first_entry_s_.reset();
 }
@@ -164,7 +165,7 @@ FlightResult Referee::result_so_far() const {
   result.first_entry_s = first_entry_s_.value_or(kNaN);
   result.path_length_m = measures_.path_length_m();
   result.mean_speed_mps = kNaN;
-  if (outcome_ == FlightOutcome::Reached && end_s_ > 0.0) {
+  if (outcome_ == FlightOutcome::Reached && end_s_ > 0.0 && !goal_changed_) {
     result.mean_speed_mps = (*goal_ - uav_.start).norm() / end_s_;
   }
   result.top_speed_mps = measures_.top_speed_mps();

@@ -69,8 +69,9 @@ class Referee {
 
   [[nodiscard]] std::optional<FlightResult> verdict() const;
   /// The measures so far. Before the verdict, outcome is Failed and detail states that the flight has not ended. NaN:
-  /// min_clearance_m without any obstacle, min_map_clearance_m without an occupied voxel, first_entry_s and
-  /// mean_speed_mps without an entry.
+  /// min_clearance_m without any obstacle, min_map_clearance_m without an occupied voxel, first_entry_s without an
+  /// entry. mean_speed_mps is NaN without an arrival, and if the goal changed in flight, as in a mission: the way from
+  /// the start to the last goal says nothing about the speed then.
   [[nodiscard]] FlightResult result_so_far() const;
 
  private:
@@ -85,6 +86,7 @@ class Referee {
 
   UavSpec uav_;
   std::optional<Vec3> goal_;
+  bool goal_changed_ = false;  ///< in flight: replaced or withdrawn
   double earliest_arrival_s_ = 0.0;
   bool has_stated_velocities_ = false;
   World world_;

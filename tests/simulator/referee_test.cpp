@@ -237,6 +237,19 @@ TEST(Referee, JudgesByTheGoalInForce) {
   EXPECT_EQ(referee.verdict()->outcome, FlightOutcome::Reached);
 }
 
+TEST(Referee, StatesNoMeanSpeedIfTheGoalChangedInFlight) {
+  Scenario s = short_flight();
+  s.timeout_s = 30.0;
+  const Vec3 turn(5, 0, 1);
+  Referee referee = referee_of(s);
+  referee.advance({}, hop(s.uav.start, turn, 3.0));
+  referee.set_goal(s.uav.start);
+  referee.advance(Duration{3'000'000}, hop(turn, s.uav.start, 3.0));
+  ASSERT_TRUE(referee.verdict());
+  EXPECT_EQ(referee.verdict()->outcome, FlightOutcome::Reached) << referee.verdict()->detail;
+  EXPECT_TRUE(std::isnan(referee.verdict()->mean_speed_mps));
+}
+
 TEST(Referee, TakesNothingAfterTheVerdict) {
   const Scenario s = short_flight();
   Referee referee = referee_of(s);
