@@ -70,8 +70,8 @@ class Referee {
   [[nodiscard]] std::optional<FlightResult> verdict() const;
   /// The measures so far. Before the verdict, outcome is Failed and detail states that the flight has not ended. NaN:
   /// min_clearance_m without any obstacle, min_map_clearance_m without an occupied voxel, first_entry_s without an
-  /// entry. mean_speed_mps is NaN without an arrival, and if the goal changed in flight, as in a mission: the way from
-  /// the start to the last goal says nothing about the speed then.
+  /// entry, mean_speed_mps without an arrival. mean_speed_mps is also NaN if the goal changed in flight, as in a
+  /// mission. Then the straight way from the start to the last goal was not flown.
   [[nodiscard]] FlightResult result_so_far() const;
 
  private:

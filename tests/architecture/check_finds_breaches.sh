@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Plants one breach of each kind in a copy of the sources, each in a file of its own, and expects check.sh to name every one of
-# these files, with what is wrong.
+# Plants one breach of each kind in a copy of the sources, each in a file of its own. check.sh must name every one of these
+# files, with what is wrong.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 root=$(dirname "$(dirname "$here")")
