@@ -41,26 +41,28 @@ class PersistentError {
 
 /// Measures the tube that requests contain.
 ///
-/// The width per axis is kMargin times a split-conformal quantile, plus three standard deviations of the estimate. The
-/// quantile is that of level 1 − kMissedShare, over the largest error of each of the last kMaxSeconds seconds. Seconds
-/// are used because errors of neighbouring instants are dependent, while those of whole seconds are nearly
-/// exchangeable. If fewer than kPriorSeconds seconds are known, the missing ones count as error 0. For a moving vehicle
-/// at share() 1 they count as kPriorError once an error has reached kMinError. The width is rounded up to kTubeStep, so
-/// that it changes seldom. It lies between the floor and kMaxTube.
+/// The width per axis is the largest of the floor, the width at rest and the width in motion, at most kMaxTube. Both
+/// widths are kMargin times a split-conformal quantile, plus three standard deviations of the estimate. They are
+/// rounded up to kTubeStep, so that they change seldom.
 ///
-/// | event                          | effect                                                                       |
-/// |--------------------------------|------------------------------------------------------------------------------|
-/// | the vehicle leaves the tube    | for kWidenedFor the width is 1.5 times as large                              |
-/// | the vehicle follows again      | errors and exits are forgotten from a second before it reported that it did  |
-/// |                                | not: their cause was reported, and is over                                   |
-/// | the estimator is reset         | the width grows by the shift: either position, before or after, may be true  |
-/// | stationary, and no way out     | share() is halved, once in kStepPeriod, at most kMaxHalvings times           |
-/// | a plan is flown                | share() is doubled, if it has not changed during the patience                |
+/// The quantile has the level 1 − kMissedShare. Its samples are the largest errors of the last kMaxSeconds seconds, one
+/// per second. (Errors of neighbouring instants are dependent, those of whole seconds are nearly exchangeable.) While
+/// fewer than kPriorSeconds are known, the missing ones count as error 0. In motion at share() 1 they count as
+/// kPriorError once an error has reached kMinError.
+///
+/// | event                               | effect                                                                  |
+/// |-------------------------------------|-------------------------------------------------------------------------|
+/// | the vehicle leaves the tube         | for kWidenedFor the width is 1.5 times as large                         |
+/// | the vehicle follows again           | forgets errors and exits since a second before it ceased to follow:     |
+/// |                                     | their cause was reported, and is over                                   |
+/// | the estimator is reset              | the width grows by the shift: either position may be the true one       |
+/// | at rest, the planner finds no way   | share() is halved, once in kStepPeriod, at most kMaxHalvings times      |
+/// | a new plan arrives                  | share() is doubled, if it has not changed during the patience           |
 ///
 /// share() is the part of the vehicle's limits that requests contain. Tracking errors grow with speed and acceleration,
-/// so a slower vehicle fits through a smaller opening. Each halving also halves the width, but not below the width
-/// measured at that share. The patience is kPatience/share. It is doubled, up to kMaxPatience, if a step up is followed
-/// by a step down within the patience; otherwise it begins anew.
+/// so a slower vehicle fits through a smaller opening. Each halving also halves the width in motion, but not below the
+/// one measured at that share. The patience is kPatience/share(), at most kMaxPatience. It is doubled if share() falls
+/// again within the patience after it has risen, and is otherwise reset.
 class Tube {
  public:
   static constexpr double kTubeStep = 0.05;         ///< m
@@ -82,12 +84,12 @@ class Tube {
   /// Adds a tracking error. @param error  |measured − commanded| per axis, m
   /// @param rests  the committed trajectory has been at rest for a while @param at  ascending
   void add(const Vec3& error, bool rests, UTime at);
-  /// Notes an error that is not used for the quantile. From kMinError on the vehicle counts as imperfect.
+  /// Notes an error that is not used for the quantile. With one of kMinError or more the vehicle counts as imperfect.
   void note_error(const Vec3& error) { has_error_ = has_error_ || (error.array() >= kMinError).any(); }
   /// The vehicle counts as imperfect, even if no error was seen.
   void assume_errors() { has_error_ = true; }
-  /// Forgets errors and exits since then: the vehicle has reported their cause and its end. A cause that comes back
-  /// within kComesBack is not over: its errors stay.
+  /// Forgets errors and exits since then: the vehicle has reported their cause and its end. If it was called within
+  /// the last kComesBack, it has no effect: a cause that comes back is not over.
   void forget_since(UTime since);
   /// The vehicle has left its tube.
   void add_exit(UTime at) { exited_ = at; }

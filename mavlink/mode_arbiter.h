@@ -14,8 +14,8 @@ inline constexpr Duration kCommandFlight{1'500'000};
 
 /// Commands modes so that a pilot's choice is never undone.
 ///
-/// 1. A mode is commanded only within 50 ms after HEARTBEAT has reported the current one. A request for HEARTBEAT
-///    precedes the command, to learn the mode that the command ends.
+/// 1. A mode is commanded only within 50 ms after HEARTBEAT has reported the current one. Right before the command a
+///    HEARTBEAT is requested: it reports the mode that the command replaces.
 /// 2. A mode that is neither the one before nor the commanded one is a pilot's choice.
 /// 3. If the command takes effect after that, the pilot's mode is commanded.
 ///

@@ -47,13 +47,16 @@ struct Explanation {
   std::string sentence;
 };
 
-/// Explains a flight's end. Of a timeout it looks at the time since the vehicle stood, or came nearer to the goal last.
-/// The first of these that held then is the cause:
+/// Explains a flight's end. For a timeout, the time since the vehicle came to stand is judged, or else the time since
+/// it last came nearer to its goal. The cause is the first of these that is true:
 ///
-///  1. no request at all             5. the vehicle is on its way: the time was too short
-///  2. a silent process              6. the most frequent kind of answers
-///  3. the vehicle did not follow    7. no progress although plans were given
-///  4. its state was unusable
+/// 1. There was no request.
+/// 2. A process is silent.
+/// 3. The vehicle did not follow.
+/// 4. Its state was unusable.
+/// 5. The vehicle is on its way: the time was too short.
+/// 6. Most answers gave one reason.
+/// 7. There were plans, but no progress.
 Explanation explain(const FlightEvidence& evidence, const FlightEnd& end);
 
 }  // namespace tern

@@ -25,8 +25,7 @@ struct KnownSurroundings {
   std::span<const Box> boxes{};    ///< walls and occupied voxels of the map, W
 };
 
-/// Finds objects in depth pictures. It keeps its memory from picture to picture; its result depends on the picture
-/// alone.
+/// Finds objects in depth pictures. The result depends on one picture alone; only memory is used again for the next.
 ///
 /// 1. Points within kSurroundingsMargin + 3σ of the ground or of a known box are removed.
 /// 2. Neighbouring pixels whose depths continue each other are one cluster (clusters.h).

@@ -20,7 +20,7 @@ struct Port {
   std::vector<std::string> types;  ///< "geometry_msgs.PoseStamped"
 };
 
-/// A port that drawings or paths leave by.
+/// An output port: for paths or drawings.
 struct OutPort {
   Port port;
   std::string topic;  ///< of the feed: "/plan"

@@ -25,8 +25,9 @@ class ScoredInterval {
   ScoredInterval(TrackClass of, const Calibration& calibration);
 
   /// Adds the error at one of kEvaluatedAhead.
-  /// @param error  per axis, absolute, m; @param score  the least margin that covers it; less than that of the error
-  ///   alone if detections were exchanged (exchange.h)
+  /// @param error  per axis, absolute, m
+  /// @param score  the least margin that covers the error. If two tracks exchanged detections (exchange.h) it may be
+  ///   less, since a box of the other track covers as well
   void add(const Vec3& error, const Vec3& deviation, double score, double ahead_s);
   /// Ends a band: its score goes to the calibration.
   void end_band(std::size_t band, Calibration& calibration);

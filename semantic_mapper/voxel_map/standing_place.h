@@ -1,4 +1,4 @@
-// Frees the voxels in which the vehicle stands: a place is free if the vehicle is there.
+// The occupied voxels in which the vehicle stands. They are freed: a place is free if the vehicle is there.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace tern {
 
-/// Returns the occupied voxels in which the body at p stands, by index. These are the voxels that it overlaps, and
-/// those of the same layers nearer than half a voxel, which leave room for a tube. The result is empty if the body does
-/// not stand at the edge of the occupied space.
+/// Returns the occupied voxels in which the body at p stands, by index. These are the voxels that it overlaps. Those of
+/// the same layers that are nearer than half a voxel are added, as room for a tube. The result is empty if the body
+/// does not stand at the edge of the occupied space.
 ///
 /// A scan of the ground marks voxels up to a voxel above it, so a vehicle that stands there overlaps them. The body is
 /// at the edge if it overlaps no occupied voxel once it is moved by one voxel on one, two or three axes. A body that

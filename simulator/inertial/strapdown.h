@@ -34,9 +34,9 @@ Vec3 rotation_log(const Mat3& R);
 /// These are the exact integrals. Source: M. Bloesch et al., "State estimation for legged robots", RSS 2012.
 InertialState strapdown(const InertialState& from, const InertialSample& sample, double h_s);
 
-/// Returns the sample that strapdown() turns into the attitude and velocity of `to`. A point sample of force and rates
-/// would differ at jumps of the jerk, and drift. The position of strapdown() then differs from that of `to` by at most
-/// h³/12 times the largest derivative of the force.
+/// Returns the sample with which strapdown() leads to the attitude and velocity of `to`. (Force and rates of one
+/// instant would be wrong where the jerk jumps, and the errors would add up.) The position of strapdown() then differs
+/// from that of `to` by at most h³/12 times the largest derivative of the force.
 /// @pre h_s > 0, and the rotation between both states is less than π
 InertialSample sample_between(const InertialState& from, const InertialState& to, double h_s);
 

@@ -41,7 +41,7 @@ struct RecordedFile {
 /// | a row without a finite number                        | left out, counted                                        |
 /// | no row of an id for 10 median steps and 2 s          | the track is cut: an id may be reused                    |
 /// | one row alone between two gaps                       | left out, counted                                        |
-/// | a step faster than 50 m/s, or 10 m/s and 5 medians   | remark: an id may have changed its owner                 |
+/// | a step above 50 m/s, or 10 m/s and 5 median steps    | remark: an id may have changed its owner                 |
 ///
 /// A time is frame / spec.frames_per_second, s.
 /// @param name  name of the file in errors and remarks
@@ -61,8 +61,9 @@ Result<std::string> find_track_file(const std::string& file, const std::string& 
 /// reads a file.
 Result<RecordedFile> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec);
 
-/// Returns the time of the file at world time 0, if it is not drawn: spec.start_s. With spec.wait_for_clear_start it is
-/// the first whole frame number from there on with a clear start. The file may have no row of that frame.
+/// Returns the file's time at world time 0, for a spec whose start_s is given. It is start_s; with
+/// spec.wait_for_clear_start it is the time of the first whole frame number from there on with a clear start. The file
+/// may have no row of that frame.
 ///
 /// The start is clear if for kStartQuiet no recorded position comes within kStartClearance of `start` on the floor,
 /// sampled at most 10 ms apart.

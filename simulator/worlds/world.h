@@ -13,14 +13,14 @@ namespace tern {
 
 struct World {
   std::vector<WorldObstacle> obstacles;  ///< the generator's, then the listed, then the recorded; obstacles[k].id() = k
-  int redrawn = 0;                       ///< draws of generator and copies that start or goal refused
-  int left_out = 0;                      ///< recorded people that crowd a drawn start
+  int redrawn = 0;   ///< draws of generator and copies that were repeated: too near to start or goal
+  int left_out = 0;  ///< recorded people that are left out: too near to the start at a drawn time
   std::vector<double> recorded_start_s;  ///< per recorded file without copies: its time at world time 0, s
   std::vector<std::string> remarks;      ///< on the recorded files (RecordedFile)
 };
 
 /// Makes the world of scenario.world with scenario.seed. Start and goal of scenario.uav affect the redraws
-/// (generators.h) and the choices from recordings (drawn_recordings.h). If the beginning is drawn, tracks that crowd
+/// (generators.h) and the choices from recordings (drawn_recordings.h). If the beginning is drawn, tracks too near to
 /// the start are left out.
 /// @param data_dir  second folder for recorded files, after that of the scenario
 /// @return an Error for the author of the scenario.

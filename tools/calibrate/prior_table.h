@@ -11,7 +11,7 @@ namespace tern::calibrate {
 /// The scores of one source: a log, or one kind of synthetic motion.
 struct Source {
   std::string name;
-  double weight = 1.0;  ///< (0, 1]; with a weight w its miss rate may be 1/w times the allowed one
+  double weight = 1.0;  ///< w in (0, 1]: its miss rate may be 1/w times the allowed one
   std::vector<ScoredPrediction> scored;
 };
 
@@ -25,9 +25,10 @@ inline constexpr std::size_t kMinPredictions = 150;
 /// average:
 /// 1. For each source, its miss rate times its weight is at most Calibration::allowed.
 /// 2. The quantile at p is the largest of the sources' quantiles at 1 − (1 − p)/weight.
-/// 3. A source with few predictions of a motion (steady, calm, lively) at an age weighs less: at most three times that
-///    motion's share. So each of the three motions may use a third of what is allowed.
-/// 4. Margins are found band by band. Predictions that an earlier band missed no longer count in a later one.
+/// 3. A source's weight for a class is its own weight times 3 s, at most its own. s is the share of the class's motion
+///    (steady, calm or lively) among the source's predictions of that age. So each motion may use a third of what is
+///    allowed.
+/// 4. Margins are found band by band. A prediction that an earlier band missed is not missed again by a later one.
 /// 5. θ is the share of scores above the margin, at most what is allowed and at least a tenth of it.
 /// 6. The slow table repeats a row of the first table if slow recordings have too few predictions, or would give a
 ///    wider margin.

@@ -16,14 +16,14 @@ struct Replanned {
       statistics;  ///< nullopt for an answer of the watchdog, since the worker's plan() ended later
 };
 
-/// Plans with the counts that `recorded` spent. For an answer of the watchdog it returns the improvement that the
-/// watchdog sent, or the last one if there are fewer.
+/// Plans again, and ends each loop at the count that `recorded` states. The watchdog may have sent an incumbent before
+/// the worker was done. Then the same incumbent is returned, or the last one if there are fewer.
 Replanned replan(const PlanProblem& problem, const Plan& recorded);
 
 /// Plans the heading of an answer again, from the yaw and rate with which the recorded one starts. These depend on the
 /// heading before, which the planner remembered.
 /// @param plan  the answer that was planned again
-/// @return nullopt if the plan has none now
+/// @return nullopt if this plan gets no heading
 std::optional<PlanHeading> replan_heading(const PlanProblem& problem, const Plan& plan, const PlanHeading& recorded);
 
 }  // namespace tern
