@@ -77,8 +77,9 @@ export async function knownLog(lead = 0, course = 0) {
   return path;
 }
 
-// The same renderer everywhere, whatever Chromium would choose.
-const SWIFTSHADER = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+// The same renderer everywhere, whatever Chromium would choose. It draws WebGL alone: charts and maps of 2D canvases take it seconds a
+// picture.
+const SWIFTSHADER = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-accelerated-2d-canvas'];
 
 /** @param rendering  Chromium's options that choose how it draws; none: as it runs for a user */
 export async function openBrowser(rendering = SWIFTSHADER) {

@@ -20,7 +20,7 @@ const POSE = ['std_msgs/Header header', 'geometry_msgs/Pose pose', RULE, 'MSG: s
   'geometry_msgs/Point position', 'geometry_msgs/Quaternion orientation', RULE, 'MSG: geometry_msgs/Point', 'float64 x',
   'float64 y', 'float64 z', RULE, 'MSG: geometry_msgs/Quaternion', 'float64 x', 'float64 y', 'float64 z', 'float64 w'].join('\n');
 
-const programs = [];
+const programs = [], sockets = [];
 function start(program, ...args) {
   const child = spawn(`${bin}/${program}`, args, { stdio: ['ignore', 'pipe', 'pipe'] });
   const process_ = { child, said: '' };
@@ -39,6 +39,7 @@ async function eventually(what, holds) {
 /** A client that has the server's channels; `newest` is the newest message of each topic, `statuses` what it was told. */
 async function connect(subprotocol = 'foxglove.sdk.v1') {
   const ws = new WebSocket(URL_, [subprotocol]);
+  sockets.push(ws);
   const client = new FoxgloveClient({ ws });
   const c = { ws, client, channels: new Map(), subscriptions: new Map(), newest: new Map(), counts: new Map(), statuses: [] };
   client.on('serverInfo', (info) => (c.info = info));
@@ -81,7 +82,10 @@ before(async () => {
   assert.equal(viewer.child.exitCode, null, viewer.said);
   scene = start('viewer_known_scene_process');
 });
-after(() => programs.forEach(({ child }) => child.kill('SIGKILL')));
+after(() => {
+  sockets.forEach((ws) => ws.terminate()); // without, each waits half a minute for the server's farewell
+  programs.forEach(({ child }) => child.kill('SIGKILL'));
+});
 
 test('a client reads every topic of a flight by the definitions that the server sends', async () => {
   const c = await connect('foxglove.websocket.v1');
