@@ -52,7 +52,8 @@ struct HeadingCounters {
 /// | the same, but it breaks a rule           | refused: from t_s on no heading is in force                           |
 /// | any other heading                        | refused                                                               |
 ///
-/// So a planner that does not learn of a refusal joins again with its second heading after that.
+/// A planner does not learn of a refusal. Its next heading is adopted as one where none is in force, and the one after
+/// that joins it.
 class CommittedHeading {
  public:
   explicit CommittedHeading(const HeadingLimits& limits) : limits_(limits) {}

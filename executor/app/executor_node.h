@@ -42,7 +42,7 @@ namespace tern {
 ///
 /// | event                                          | state     | effect                                              |
 /// |------------------------------------------------|-----------|-----------------------------------------------------|
-/// | a UAV_STATE                                    | any       | by FollowWatch                                      |
+/// | a UAV_STATE                                    | any       | FollowWatch decides: none, a wider tube, a rejoin   |
 /// | first UAV_STATE since the silence began        | Silent    | Silent ends                                         |
 /// | the vehicle stops following, or mode Stop      | Following | a plan that no request contained yet is dropped;    |
 /// |                                                |           | the committed trajectory is flown to its end        |
@@ -50,13 +50,14 @@ namespace tern {
 /// | a GOAL with the id in use and other contents   | any       | refused and counted as inconsistent                 |
 /// | the vehicle follows again                      | Following | the tube forgets the errors from 1 s before it left |
 /// | the vehicle follows for the first time         | Holding   | the yaw starts at the measured yaw                  |
+/// | the estimator is reset after the first time    | any       | the tube grows by the shift                         |
 /// | a PLAN_HEADING that CommittedHeading adopts    | Following | the yaw turns along it, else along the flight       |
-/// | the estimator is reset after that              | any       | the tube grows by the shift                         |
 ///
-/// Rejoin means: commit to a braking trajectory from the measured state; the next plan starts on it. The yaw starts
-/// anew because estimators correct it during take-off. Silent is needed because the vehicle may not have received the
-/// plan that was adopted last. Only a restart ends Lost. Since no setpoint is sent, the vehicle comes to rest at the
-/// end of the trajectory that it knows. There its pilot or its own failsafe takes over.
+/// - A rejoin commits to a braking trajectory from the measured state; the next plan starts on it.
+/// - The yaw starts at the measured one because estimators correct it during take-off.
+/// - Silent is needed because the vehicle may not have received the plan that was adopted last.
+/// - Only a restart ends Lost. Since no setpoint is sent, the vehicle comes to rest at the end of the trajectory that
+///   it knows. There its pilot or its own failsafe takes over.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);

@@ -53,9 +53,9 @@ class GoalField {
   /// Returns a taut piecewise-linear path from start to goal, both included, clear of every box; nullopt if there is
   /// none.
   ///
-  /// Taut means that no vertex can be pulled to a cheaper position. Of a box that contains the start, only
-  /// core_beyond() it blocks: the path leaves the box. In simple cases the path is at most a few percent longer than
-  /// the shortest one. Takes about 10 µs, with a TravelCost about 100 µs.
+  /// Taut means that no vertex can be pulled to a cheaper position. A box that contains the start blocks only with its
+  /// part core_beyond() the start, so that the path can leave the box. In simple cases the path is at most a few
+  /// percent longer than the shortest one. Takes about 10 µs, with a TravelCost about 100 µs.
   [[nodiscard]] std::optional<std::vector<Vec3>> path_from(const Vec3& start) const;
 
   /// Returns the box that blocks the way if there is no path, for a message to people.
