@@ -18,6 +18,8 @@ PAGE = ROOT / "docs/reference/messages.md"
 PROCESSES = {
     "simulator": "simulator",
     "mavlink": "bridge",
+    "detector": "detector",
+    "estimator": "estimator",
     "predictor": "predictor",
     "planner": "planner",
     "executor": "executor",
@@ -45,8 +47,8 @@ AFTER_CHANNELS = """
 * *Latched*: the newest message is repeated for processes that start late.
 * *Silence*: a sender owns the channel until it is silent for this long; then another one may take over
   ([why](../decisions/one-sender-per-channel.md)). A dash means that several senders may send at the same time.
-* *Senders and receivers* are the processes of a simulated flight and the autopilot bridge. On an aircraft, sensors
-  send OBSTACLE_OBSERVATIONS and a mission may send GOAL. The logger records all channels. Tools read the log.
+* *Senders and receivers* are the processes of a simulated flight and the autopilot bridge, whose place tern-ros2 or
+  tern-dimos may take. On an aircraft, sensors send the simulator's channels. The logger records all channels.
 
 ## Rules
 
