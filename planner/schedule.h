@@ -63,8 +63,8 @@ bool is_among_estimates(Task task, const Surroundings& near);
 /// | Stop at the last of them                         | Stop                                                        |
 ///
 /// *Among estimates* means is_among_estimates(). There a vehicle that has been at rest for kMaxWaitAtRest searches
-/// thoroughly at the reduced assurances: each request with one duration, which its id chooses. Every n-th request tries
-/// all of the n − 1 durations as in flight.
+/// thoroughly at the reduced assurances: each request with one duration, which its id chooses. With n durations, every
+/// (n + 1)-th request tries all of them, as a vehicle in flight does.
 /// @param near  at full assurance
 std::vector<Trial> schedule(Task task, const Surroundings& near);
 

@@ -9,7 +9,8 @@
 
 namespace tern {
 
-/// Two flights differ in outcome, time, path length, clearance or jerk. Flights without a referee count as different.
+/// Two flights are distinct if they differ in outcome, time, path length, clearance or jerk. Flights without a referee
+/// count as different.
 class DistinctFlights {
  public:
   /// O(log n).

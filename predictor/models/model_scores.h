@@ -13,7 +13,7 @@
 namespace tern {
 
 /// The times ahead at which models are scored, s: those that the planner needs. The likelihood of the next detection is
-/// no measure of that. A walker's head sways, so it would favour models that are poor a second ahead.
+/// no measure of that. It would favour models that follow a walker's swaying head, and are poor a second ahead.
 /// They are all of kCoverageHorizons but the last, which is too far ahead for models to differ in kind.
 inline constexpr std::size_t kScoredHorizons = kHorizons - 1;
 inline constexpr std::array<double, kScoredHorizons> kScoredAhead = [] {

@@ -13,9 +13,9 @@ namespace tern {
 ///
 /// - Its half width d is drawn from [1, 3) m, about the start's y. The walls are 0.2 m thick and 3 m high.
 /// - Both walls have the same `gaps` gaps of 1.5 m. Each gap has a drawn place in its share of the corridor.
-/// - Behind one wall, drawn per gap, an upright box of 0.5 × 0.5 × 3 m waits before the gap, as seen from the start. No
-///   place of the corridor before the gap sees it. The wall hides it, and a stub of wall behind it hides it from the
-///   gaps before.
+/// - Behind one wall, drawn per gap, an upright box of 0.5 × 0.5 × 3 m waits before the gap, as seen from the start. It
+///   cannot be seen from any place of the corridor before the gap. The wall hides it, and a stub of wall behind it
+///   hides it from the gaps before.
 /// - At a drawn time it walks to the gap, then across the corridor into the opposite gap, where it stays. Its speed is
 ///   drawn from [0.5, 2) m/s. In the corridor's middle it meets a vehicle that flies 2.5 to 5 m/s on average. It sets
 ///   out at 0.5 s at the earliest.

@@ -33,7 +33,7 @@ struct ScatteredCopies {
 /// Drawn in this order: track, beginning of the piece, turn about z, mirrored in x or not, place of the bounding box.
 /// The box's centre is uniform on each axis on which the box fits into spec.within. On the other axes it is in the
 /// middle.
-/// @return an Error if the start refuses 1000 draws in a row.
+/// @return an Error if 1000 draws in a row come too near to the start.
 Result<ScatteredCopies> scatter_copies(Rng& rng, const std::vector<RecordedTrack>& tracks,
                                        const RecordedTracksSpec& spec, const Vec3& start, double duration_s);
 
