@@ -24,7 +24,7 @@ namespace tern {
 /// The content of a log on one channel.
 struct LogChannel {
   std::int64_t messages = 0, bytes = 0;    ///< all messages
-  std::int64_t refused[kRejections] = {};  ///< refused messages by Rejection; Fingerprint may also be no message at all
+  std::int64_t refused[kRejections] = {};  ///< by Rejection; Fingerprint also counts bytes that are no message
   std::int64_t lost = 0;                   ///< lost messages by their sequence numbers (MessageLosses)
   std::int64_t before_first = 0;           ///< messages that were sent before the first one in the log
   std::int64_t repeated = 0;               ///< messages that the network delivered again.
