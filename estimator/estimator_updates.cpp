@@ -108,11 +108,12 @@ void Estimator::State::advance(UTime to) {
 void Estimator::State::use(const FeatureFrame& frame, const Masks& masks) {
   filter->add_clone(++number, frame.at);
   const FeatureFrame seen = unmasked(frame, masks, T_WO.to_O(PoseInW{filter->nav().R, filter->nav().p}));
-  tracks.add(number, seen);
+  const int slips = tracks.add(seen, *filter);
   tracked = static_cast<int>(seen.features.size());
   if (tracked > 0) seen_at = frame.at;
   const std::size_t first = anchors();
   counts = filter->use(tracks.take(filter->clones(), first, config.clones, config.features_per_update), first);
+  counts.refused += slips;
   if (counts.used > 0) used_at = frame.at;
   judge(counts);
   thin_clones();

@@ -47,6 +47,6 @@ void eliminate_feature(FeatureRows& rows);
 /// Returns a quantile of χ² with `freedom` ≥ 1 degrees of freedom. It is given by the standard normal quantile z of the
 /// same probability (1.645: 95 %). Wilson and Hilferty's approximation is within 0.5 % from 3 degrees on.
 double chi_square_quantile(int freedom, double z);
-inline constexpr double kGate95 = 1.6449, kGate9999 = 3.719;
+inline constexpr double kGate95 = 1.6449, kGate999 = 3.0902, kGate9999 = 3.719;
 
 }  // namespace tern

@@ -12,7 +12,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Rows of a feature without its own error; nullopt if it has no position or its views contradict the state.
-std::optional<FeatureRows> gated_rows(const std::vector<PosedView>& views, int poses, const MatrixXd& P_poses) {
+/// @param gate  the standard normal quantile of the χ² gate
+std::optional<FeatureRows> gated_rows(const std::vector<PosedView>& views, int poses, const MatrixXd& P_poses,
+                                      double gate) {
   const auto x_W = triangulated(views);
   if (!x_W) return std::nullopt;
   FeatureRows rows = feature_rows(views, *x_W, poses);
@@ -24,7 +26,7 @@ std::optional<FeatureRows> gated_rows(const std::vector<PosedView>& views, int p
   MatrixXd S = MatrixXd::Identity(rows.r.size(), rows.r.size());
   S.noalias() += H * (P_poses.block(from, from, span, span) * H.transpose()).eval();
   const VectorXd white = S.llt().matrixL().solve(rows.r);
-  const double limit = chi_square_quantile(static_cast<int>(rows.r.size()), kGate95);
+  const double limit = chi_square_quantile(static_cast<int>(rows.r.size()), gate);
   // A NaN is refused as well.
   if (!(white.squaredNorm() < limit)) return std::nullopt;
   return rows;
@@ -71,7 +73,7 @@ UpdateCounts Msckf::use(const std::vector<UsableFeature>& features, std::size_t 
   for (const UsableFeature& feature : features) {
     std::vector<PosedView> views = feature.views;
     for (PosedView& view : views) view.pose -= static_cast<int>(first);
-    auto of_feature = gated_rows(views, poses, P_poses);
+    auto of_feature = gated_rows(views, poses, P_poses, kGate95);
     if (!of_feature) {
       ++counts.refused;
       continue;
@@ -92,6 +94,12 @@ UpdateCounts Msckf::use(const std::vector<UsableFeature>& features, std::size_t 
   compress(H, r);
   correct(H, r, column(first));
   return counts;
+}
+
+bool Msckf::agree(std::vector<PosedView> views) const {
+  const int first = views.front().pose, poses = static_cast<int>(clones_.size()) - first;
+  for (PosedView& view : views) view.pose -= first;
+  return gated_rows(views, poses, P_.bottomRightCorner(6 * poses, 6 * poses), kGate999).has_value();
 }
 
 void Msckf::correct(const MatrixXd& H, const VectorXd& r, Index first) {

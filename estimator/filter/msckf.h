@@ -48,6 +48,11 @@ class Msckf {
   /// @param first  clones before this index have no views
   UpdateCounts use(const std::vector<UsableFeature>& features, std::size_t first);
 
+  /// Whether the views agree with one static point and the state (χ² gate, 99.9 %). At most one view in a thousand that
+  /// follows its point is doubted.
+  /// @pre views is not empty, in ascending order of poses; `pose` is the clone's index
+  [[nodiscard]] bool agree(std::vector<PosedView> views) const;
+
   /// Corrects the state by a residual r = H ε + n, n ~ N(0, 1), of the errors from column `first` on.
   void correct(const Eigen::MatrixXd& H, const Eigen::VectorXd& r, Eigen::Index first);
 

@@ -4,10 +4,40 @@
 
 namespace tern {
 
-void TrackTable::add(std::int64_t number, const FeatureFrame& frame) {
+int TrackTable::add(const FeatureFrame& frame, const Msckf& filter) {
+  const std::int64_t number = filter.clones().back().number;
   const Eigen::Quaterniond q_BC(frame.q_BC[0], frame.q_BC[1], frame.q_BC[2], frame.q_BC[3]);
   rigs_[number] = {q_BC.normalized().toRotationMatrix(), frame.p_BC, frame.baseline_m, frame.sigma};
-  for (const StereoFeature& feature : frame.features) tracks_[feature.id].push_back({number, feature});
+  const std::set<std::int64_t> slips = slipped(frame, filter);
+  const bool most_slip = slips.size() > 1 && 2 * slips.size() > newest_.size();
+  std::set<std::int64_t> refused;
+  newest_.clear();
+  for (const StereoFeature& feature : frame.features) {
+    const bool slips_now = slips.contains(feature.id);
+    if (refused_.contains(feature.id) || (slips_now && !most_slip)) {
+      refused.insert(feature.id);
+      continue;
+    }
+    if (slips_now) tracks_.erase(feature.id);
+    newest_.insert_or_assign(feature.id, View{number, feature});
+    tracks_[feature.id].push_back({number, feature});
+  }
+  refused_ = std::move(refused);
+  return static_cast<int>(slips.size());
+}
+
+std::set<std::int64_t> TrackTable::slipped(const FeatureFrame& frame, const Msckf& filter) const {
+  std::set<std::int64_t> slips;
+  const auto& clones = filter.clones();
+  if (clones.size() < 2) return slips;
+  const std::size_t before = clones.size() - 2;
+  for (const StereoFeature& feature : frame.features) {
+    const auto last = newest_.find(feature.id);
+    if (last == newest_.end() || last->second.number != clones[before].number) continue;
+    const std::vector<View> pair = {last->second, {clones.back().number, feature}};
+    if (!filter.agree(posed(feature.id, pair, clones, before).views)) slips.insert(feature.id);
+  }
+  return slips;
 }
 
 UsableFeature TrackTable::posed(std::int64_t id, const std::vector<View>& views, const std::vector<Clone>& clones,
