@@ -1,5 +1,6 @@
 // Cost of the planner and of its stages, on the requests of one flight through paper_corridor 100 (seed 1), recorded at
 // the start.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,11 +55,11 @@ void plan_of_a_flight(benchmark::State& state) {
 }
 BENCHMARK(plan_of_a_flight)->Unit(benchmark::kMillisecond)->Iterations(1);
 
-void sweep(const Answered& m, SweptObstacles& swept) {
+SeparationCache& sweep(const Answered& m, SweptHorizon& swept) {
   std::vector<double> times;
   for (int k = 0; k <= 12; ++k) times.push_back(k * m.answer.trajectory.interval.seconds());
-  swept.assign(m.world.predictions->obstacles, m.request.body, m.request.t_s, times,
-               box_around(m.request.start.p, Vec3::Constant(4.0)));
+  return swept.assign(m.world.predictions->obstacles, m.request.body, m.request.t_s, times,
+                      box_around(m.request.start.p, Vec3::Constant(4.0)));
 }
 
 /// Requests of the flight whose answer is a new trajectory.
@@ -73,13 +74,13 @@ std::vector<const Answered*> planned() {
 /// The same with their obstacles.
 struct Swept {
   const Answered* moment = nullptr;
-  mutable SweptObstacles obstacles;  ///< sweeps are made on demand and cached
+  std::unique_ptr<SweptHorizon> horizon = std::make_unique<SweptHorizon>();
 };
 std::vector<Swept> swept_moments() {
   std::vector<Swept> all;
   for (const Answered* m : planned()) {
     all.emplace_back().moment = m;
-    sweep(*m, all.back().obstacles);
+    sweep(*m, *all.back().horizon);
   }
   return all;
 }
@@ -101,30 +102,27 @@ BENCHMARK(index_query);
 
 /// Cutting the obstacles of a horizon into boxes.
 void swept_boxes(benchmark::State& state) {
-  SweptObstacles swept;
-  in_turn(state, planned(), [&](const Answered* m) {
-    sweep(*m, swept);
-    return swept.intervals();
-  });
+  SweptHorizon swept;
+  in_turn(state, planned(), [&](const Answered* m) { return sweep(*m, swept).obstacles().intervals(); });
 }
 BENCHMARK(swept_boxes)->Unit(benchmark::kMicrosecond);
 
-/// Calls work(swept, interval, neighbour) for every neighbour of six intervals of each request, with an empty cache.
+/// Calls work(cache, interval, neighbour) for every neighbour of six intervals of each request, with an empty cache.
 template <class Work>
 void for_each_neighbour(benchmark::State& state, const Work& work) {
   const auto moments = planned();
   std::size_t k = 0;
   std::int64_t candidates = 0;
-  SweptObstacles swept;
+  SweptHorizon swept;
   for (auto _ : state) {
     state.PauseTiming();
     const Answered& m = *moments[k++ % moments.size()];
     sweep(m, swept);
     state.ResumeTiming();
     for (int j = 0; j < 6; ++j) {
-      for (const auto& neighbour : swept.neighbours(j)) {
-        if (!swept.obstacle(neighbour).moves()) continue;
-        work(swept, j, neighbour);
+      for (const auto& neighbour : swept.obstacles.neighbours(j)) {
+        if (!swept.obstacles.obstacle(neighbour).moves()) continue;
+        work(swept.cache, j, neighbour);
         ++candidates;
       }
     }
@@ -134,16 +132,16 @@ void for_each_neighbour(benchmark::State& state, const Work& work) {
 
 /// One sweep of a moving obstacle over an interval, as boxes.
 void swept_samples(benchmark::State& state) {
-  for_each_neighbour(state, [](SweptObstacles& swept, int j, const SweptObstacles::Neighbour& neighbour) {
-    benchmark::DoNotOptimize(swept.sweep(neighbour, {j}).boxes.data());
+  for_each_neighbour(state, [](SeparationCache& cache, int j, const SweptObstacles::Neighbour& neighbour) {
+    benchmark::DoNotOptimize(cache.sweep(neighbour, {j}).boxes.data());
   });
 }
 BENCHMARK(swept_samples)->Unit(benchmark::kMicrosecond);
 
 /// One hull of a moving obstacle, by CGAL.
 void swept_hull(benchmark::State& state) {
-  for_each_neighbour(state, [](SweptObstacles& swept, int j, const SweptObstacles::Neighbour& neighbour) {
-    benchmark::DoNotOptimize(swept.hull(neighbour, {j}).data());
+  for_each_neighbour(state, [](SeparationCache& cache, int j, const SweptObstacles::Neighbour& neighbour) {
+    benchmark::DoNotOptimize(cache.hull(neighbour, {j}).data());
   });
 }
 BENCHMARK(swept_hull)->Unit(benchmark::kMicrosecond);
@@ -155,7 +153,7 @@ void separation_in_flight(benchmark::State& state) {
     const ClampedSpline spline = swept.moment->answer.trajectory.spline();
     bool all = true;
     for (int j = 0; j < spline.intervals(); ++j) {
-      all = is_separated(swept.obstacles, j, spline.power(j), spline.minvo(j), pairs) && all;
+      all = is_separated(swept.horizon->cache, j, spline.power(j), spline.minvo(j), pairs) && all;
     }
     return all;
   });
@@ -169,7 +167,7 @@ void gather_planes(benchmark::State& state) {
   PairCounts pairs;
   in_turn(state, swept_moments(), [&](const Swept& swept) {
     planes.clear();
-    find_planes(swept.obstacles, swept.moment->answer.trajectory.spline(), HullBasis::Minvo, 1.0, pairs, planes);
+    find_planes(swept.horizon->cache, swept.moment->answer.trajectory.spline(), HullBasis::Minvo, 1.0, pairs, planes);
     return planes.data();
   });
 }

@@ -42,7 +42,7 @@ class Judge final : public PlanObserver {
     if (stage == Stage::Search) began_ = thread_cpu_ms();
   }
   void answer(const Plan&) override {}
-  void searched(const SearchProblem& problem, SweptObstacles& obstacles, const SearchResult& found) override {
+  void searched(const SearchProblem& problem, SeparationCache& swept, const SearchResult& found) override {
     Judged j;
     j.default_ms = thread_cpu_ms() - began_;
     if (!judged.empty() && judged.back().found) return;  ///< durations up to the first that gives a leaf
@@ -51,7 +51,7 @@ class Judge final : public PlanObserver {
     unlimited.hold_expansions = std::numeric_limits<int>::max() / 2;
     const double began = thread_cpu_ms();
     Budget budget([&](const BudgetCut&) { return thread_cpu_ms() - began > kLongSearchMs; });
-    const SearchResult best = semantic_a_star(problem, unlimited, obstacles, budget, memory_);
+    const SearchResult best = semantic_a_star(problem, unlimited, swept, budget, memory_);
     j.long_ms = thread_cpu_ms() - began;
     const double at_start = problem.cost_to_go.from(problem.start.p);
     j.found = found.found;

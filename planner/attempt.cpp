@@ -67,7 +67,7 @@ std::optional<Duration> interval_of(double duration_s, int intervals) {
   return Duration{static_cast<std::int64_t>(std::ceil(dt * 1e6))};
 }
 
-void sweep_horizon(const Attempt& attempt, std::vector<double>& times, SweptObstacles& swept) {
+SeparationCache& sweep_horizon(const Attempt& attempt, std::vector<double>& times, SweptHorizon& swept) {
   const HorizonProblem& problem = attempt.problem;
   const double dt = problem.interval_s();
   times.clear();
@@ -75,10 +75,10 @@ void sweep_horizon(const Attempt& attempt, std::vector<double>& times, SweptObst
   append_hold(times, std::max(dt, kHoldStep), attempt.hold_s);
   const Box region = box_around(problem.start.p, Vec3::Constant(problem.sphere_radius));
   const HorizonRequest& request = attempt.near.request;
-  swept.assign(attempt.near.obstacles, request.body, request.t_s, times, region);
+  return swept.assign(attempt.near.obstacles, request.body, request.t_s, times, region);
 }
 
-std::optional<Candidate> search_candidate(const Attempt& attempt, const SearchConfig& config, SweptObstacles& swept,
+std::optional<Candidate> search_candidate(const Attempt& attempt, const SearchConfig& config, SeparationCache& swept,
                                           PlanTools& tools) {
   tools.log.enter(Stage::Search);
   SearchProblem problem{attempt.problem};
@@ -96,7 +96,7 @@ std::optional<Candidate> search_candidate(const Attempt& attempt, const SearchCo
 }
 
 std::optional<Candidate> certify(const Attempt& attempt, const Points& control_points, PlanOutcome outcome,
-                                 SweptObstacles& swept, PlanLog& log) {
+                                 SeparationCache& swept, PlanLog& log) {
   Candidate c;
   c.outcome = outcome;
   c.assurance = attempt.near.assurance;

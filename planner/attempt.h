@@ -52,14 +52,15 @@ std::optional<Duration> interval_of(double duration_s, int intervals);
 
 /// Assigns to `swept` the obstacles of the horizon t_s … t_s + J Δt and of the hold after it.
 /// @param times  scratch memory
-void sweep_horizon(const Attempt& attempt, std::vector<double>& times, SweptObstacles& swept);
+/// @return its empty cache
+SeparationCache& sweep_horizon(const Attempt& attempt, std::vector<double>& times, SweptHorizon& swept);
 
 /// Runs the search and certifies its leaf. @return nullopt if there is no leaf or the checker rejects it
-std::optional<Candidate> search_candidate(const Attempt& attempt, const SearchConfig& config, SweptObstacles& swept,
+std::optional<Candidate> search_candidate(const Attempt& attempt, const SearchConfig& config, SeparationCache& swept,
                                           PlanTools& tools);
 
 /// Runs the checker on these control points. @return nullopt if it rejects them
 std::optional<Candidate> certify(const Attempt& attempt, const Points& control_points, PlanOutcome outcome,
-                                 SweptObstacles& swept, PlanLog& log);
+                                 SeparationCache& swept, PlanLog& log);
 
 }  // namespace tern

@@ -36,8 +36,7 @@ PlanReason try_durations(const Surroundings& near, const Course& course, const T
                           near.hold.required(end_s)};
     if (!is_followed(near, *interval, attempt.hold_s)) break;
     tools.log.enter(Stage::BroadPhase);
-    SweptObstacles& swept = tools.memory.horizon;
-    sweep_horizon(attempt, tools.memory.times, swept);
+    SeparationCache& swept = sweep_horizon(attempt, tools.memory.times, tools.memory.horizon);
     if (auto leaf = search_candidate(attempt, search, swept, tools)) {
       incumbent.report_leaf(*leaf);
       incumbent.offer(refined(attempt, std::move(*leaf), swept, tools));

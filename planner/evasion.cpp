@@ -141,8 +141,7 @@ std::optional<Candidate> find_evasion(const Surroundings& near, const Course& co
     const double look_s = near.hold.cap_of_stop(stop.way_s);
     if (!is_followed(near, stop.interval, look_s)) continue;
     const Attempt attempt{near, there, horizon_problem(near, stop.interval), look_s, look_s};
-    SweptObstacles& swept = tools.memory.evasion;
-    sweep_horizon(attempt, tools.memory.times, swept);
+    SeparationCache& swept = sweep_horizon(attempt, tools.memory.times, tools.memory.evasion);
     auto found = search_candidate(attempt, search, swept, tools);
     tools.log.statistics.count(swept);
     if (!found) continue;
@@ -150,7 +149,7 @@ std::optional<Candidate> find_evasion(const Surroundings& near, const Course& co
     evaluate(near, course, *found);
     found->holds = lasts(found->hold_s, near.hold.required(stop.way_s));
     if (seeks_room && !found->holds) continue;
-    if (seeks_room) found->room = room_at_end(swept, near.config.intervals, found->trajectory);
+    if (seeks_room) found->room = room_at_end(swept.obstacles(), near.config.intervals, found->trajectory);
     if (best && !is_better_stop(*found, *best, trial.aim)) continue;
     best = std::move(found);
     if (!seeks_room && lasts(best->hold_s, look_s)) return best;

@@ -45,8 +45,8 @@ std::optional<Candidate> check_committed(const Surroundings& near, PlanTools& to
   const bool rests = pieces.empty();
   const double look_s = rests ? near.hold.cap_of_stop(0.0) : near.hold.cap(moving_s);
   append_hold(times, kHoldStep, std::min(look_s, near.look.followed_s - moving_s));
-  SweptObstacles& swept = tools.memory.committed;
-  swept.assign(near.obstacles, request.body, request.t_s, times, near.committed);
+  SeparationCache& swept =
+      tools.memory.committed.assign(near.obstacles, request.body, request.t_s, times, near.committed);
   CheckReport report = check_separation(pieces, swept);
   tools.log.statistics.pairs += report.pairs;
   tools.log.statistics.count(swept);

@@ -46,8 +46,7 @@ std::optional<Candidate> shortest_to(const Surroundings& near, const Course& the
                           near.hold.required(end_s)};
     if (!is_followed(near, *interval, attempt.hold_s)) return std::nullopt;
     tools.log.enter(Stage::BroadPhase);
-    SweptObstacles& swept = tools.memory.horizon;
-    sweep_horizon(attempt, tools.memory.times, swept);
+    SeparationCache& swept = sweep_horizon(attempt, tools.memory.times, tools.memory.horizon);
     auto leaf = search_candidate(attempt, search, swept, tools);
     if (leaf) leaf = refined(attempt, std::move(*leaf), swept, tools);
     tools.log.statistics.count(swept);

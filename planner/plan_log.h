@@ -20,7 +20,7 @@ class PlanObserver {
   virtual void enter(Stage stage) = 0;               ///< called when work of this stage begins
   virtual void answer(const Plan& best_so_far) = 0;  ///< called for each new incumbent; the first is the fallback
   /// Called after each search.
-  virtual void searched(const SearchProblem&, SweptObstacles&, const SearchResult&) {}
+  virtual void searched(const SearchProblem&, SeparationCache&, const SearchResult&) {}
   /// Returns whether the next search keeps its nodes for searched().
   [[nodiscard]] virtual bool wants_search_nodes() const { return false; }
 };
@@ -33,9 +33,9 @@ struct PlanStatistics {
   PairCounts pairs;
   std::int64_t solver_calls = 0, solver_iterations = 0;
 
-  void count(const SweptObstacles& swept) {
+  void count(const SeparationCache& swept) {
     hulls += swept.hulls_made();
-    pairs_by_index += swept.pairs_out_of_reach();
+    pairs_by_index += swept.obstacles().pairs_out_of_reach();
   }
 };
 
@@ -47,8 +47,8 @@ class PlanLog {
   void enter(Stage stage) {
     if (observer_ != nullptr) observer_->enter(stage);
   }
-  void searched(const SearchProblem& problem, SweptObstacles& obstacles, const SearchResult& result) {
-    if (observer_ != nullptr) observer_->searched(problem, obstacles, result);
+  void searched(const SearchProblem& problem, SeparationCache& swept, const SearchResult& result) {
+    if (observer_ != nullptr) observer_->searched(problem, swept, result);
   }
   [[nodiscard]] bool wants_search_nodes() const { return observer_ != nullptr && observer_->wants_search_nodes(); }
   [[nodiscard]] PlanObserver* observer() { return observer_; }

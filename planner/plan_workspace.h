@@ -6,7 +6,7 @@
 
 #include "core/world/horizon.h"
 #include "planner/optimization/barrier_solver.h"
-#include "planner/safety/swept_obstacles.h"
+#include "planner/safety/separation_cache.h"
 #include "planner/search/search_memory.h"
 
 namespace tern {
@@ -21,9 +21,10 @@ struct PlanWorkspace {
   std::vector<PlanningObstacle> reduced_obstacles;  ///< the same at a reduced assurance
   std::vector<std::int32_t> found;                  ///< results of an index query
   std::vector<double> times;                        ///< interval ends of a horizon, s after t_s
-  SweptObstacles committed;                         ///< along the committed trajectory
-  SweptObstacles horizon;                           ///< of the current duration
-  SweptObstacles evasion, forecast;                 ///< of the current stop; of the forecast for all stops
+  SweptHorizon committed;                           ///< along the committed trajectory
+  SweptHorizon horizon;                             ///< of the current duration
+  SweptHorizon evasion;                             ///< of the current stop
+  SweptObstacles forecast;                          ///< of the forecast for all stops
   SearchMemory search;
   std::vector<CertificatePlane> certificates;  ///< planes near a trajectory
   std::vector<PlaneConstraint> planes;         ///< the same as constraints of the solver

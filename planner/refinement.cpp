@@ -13,7 +13,7 @@ namespace tern {
 namespace {
 
 const std::vector<CertificatePlane>& near_planes(const Attempt& attempt, const TimedSpline& trajectory,
-                                                 SweptObstacles& swept, PlanTools& tools) {
+                                                 SeparationCache& swept, PlanTools& tools) {
   std::vector<CertificatePlane>& planes = tools.memory.certificates;
   planes.clear();
   find_planes(swept, trajectory.spline(), attempt.problem.hull_basis, attempt.near.config.optimization.plane_reach_m,
@@ -26,10 +26,10 @@ PlaneConstraint constraint_of(const CertificatePlane& c) {
   return {c.interval, part.u0(), part.u1(), c.plane};
 }
 
-const Points& hull_of(SweptObstacles& obstacles, const CertificatePlane& plane) {
-  for (const SweptObstacles::Neighbour& neighbour : obstacles.neighbours(plane.interval)) {
-    if (obstacles.obstacle(neighbour).id == plane.track)
-      return obstacles.hull(neighbour, {plane.interval, plane.part, plane.parts});
+const Points& hull_of(SeparationCache& swept, const CertificatePlane& plane) {
+  for (const SweptObstacles::Neighbour& neighbour : swept.obstacles().neighbours(plane.interval)) {
+    if (swept.obstacles().obstacle(neighbour).id == plane.track)
+      return swept.hull(neighbour, {plane.interval, plane.part, plane.parts});
   }
   throw std::logic_error("hull_of: a plane of an obstacle that is not in its interval");
 }
@@ -37,7 +37,7 @@ const Points& hull_of(SweptObstacles& obstacles, const CertificatePlane& plane) 
 /// Solves Eq. 4 for one leaf by either method.
 class Refinement {
  public:
-  Refinement(const Attempt& attempt, const Candidate& leaf, SweptObstacles& swept, PlanTools& tools)
+  Refinement(const Attempt& attempt, const Candidate& leaf, SeparationCache& swept, PlanTools& tools)
       : attempt_(attempt),
         config_(attempt.near.config.optimization),
         swept_(swept),
@@ -104,7 +104,7 @@ class Refinement {
 
   const Attempt& attempt_;
   const OptimizationConfig& config_;
-  SweptObstacles& swept_;
+  SeparationCache& swept_;
   PlanTools& tools_;
   TrajectoryProblem problem_;
   double hold_required_;
@@ -114,7 +114,7 @@ class Refinement {
 /// Optimizes the leaf by the configured method.
 /// @return nullopt if the method is SearchOnly, or if no iterate passes the checker and holds as long as required (or
 /// as the leaf does)
-std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf, SweptObstacles& swept,
+std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf, SeparationCache& swept,
                                    PlanTools& tools) {
   Refinement refinement(attempt, leaf, swept, tools);
   switch (attempt.near.config.optimization.method) {
@@ -130,7 +130,7 @@ std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf
 
 }  // namespace
 
-Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools) {
+Candidate refined(const Attempt& attempt, Candidate leaf, SeparationCache& swept, PlanTools& tools) {
   auto smooth = optimized(attempt, leaf, swept, tools);
   return smooth && replaces_leaf(*smooth, leaf, attempt) ? std::move(*smooth) : std::move(leaf);
 }
@@ -147,7 +147,7 @@ TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf)
   return problem;
 }
 
-std::vector<SeparatedPair> gather_pairs(const Attempt& attempt, const TimedSpline& trajectory, SweptObstacles& swept,
+std::vector<SeparatedPair> gather_pairs(const Attempt& attempt, const TimedSpline& trajectory, SeparationCache& swept,
                                         PlanTools& tools) {
   std::vector<SeparatedPair> pairs;
   for (const CertificatePlane& c : near_planes(attempt, trajectory, swept, tools)) {

@@ -12,7 +12,7 @@ namespace tern {
 ///
 /// The optimized trajectory is kept if the checker passes it and it replaces_leaf() (preference.h).
 /// @return the optimized trajectory, or the leaf
-Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools);
+Candidate refined(const Attempt& attempt, Candidate leaf, SeparationCache& swept, PlanTools& tools);
 
 /// Returns Eq. 4 for a leaf. Its goal is the local goal. With semantics its goal is the leaf's own end, because the
 /// search chose that end by the regions. If the leaf ends within one band of the goal, the local goal is used even
@@ -21,7 +21,7 @@ TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf)
 
 /// Returns the plane of widest margin and the hull for every pair near the trajectory. Such planes leave the optimizer
 /// the most room.
-std::vector<SeparatedPair> gather_pairs(const Attempt& attempt, const TimedSpline& trajectory, SweptObstacles& swept,
+std::vector<SeparatedPair> gather_pairs(const Attempt& attempt, const TimedSpline& trajectory, SeparationCache& swept,
                                         PlanTools& tools);
 
 }  // namespace tern

@@ -64,12 +64,13 @@ std::vector<SearchSegment> segments_of(const TimedSpline& trajectory, const Pred
   std::vector<double> times;
   for (int j = 0; j <= spline.intervals(); ++j) times.push_back(j * spline.interval_s());
   const Box everywhere(Vec3::Constant(-1e3), Vec3::Constant(1e3));
-  SweptObstacles swept(predictions.obstacles, body, trajectory.start, times, everywhere);
+  const SweptObstacles swept(predictions.obstacles, body, trajectory.start, times, everywhere);
+  SeparationCache cache(swept);
   std::vector<SearchSegment> segments;
   for (int j = 0; j < spline.intervals(); ++j) {
     SearchSegment segment;
     segment.curve_hull = spline.minvo(j);
-    segment.obstacle_hull = swept.hull(swept.neighbours(j).at(0), {j});
+    segment.obstacle_hull = cache.hull(swept.neighbours(j).at(0), {j});
     if (const auto apart = separate(segment.obstacle_hull, segment.curve_hull, body.radius)) {
       segment.plane = apart->plane;
       segment.gap_m = apart->gap;

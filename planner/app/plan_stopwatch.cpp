@@ -23,7 +23,7 @@ void PlanStopwatch::answer(const Plan& best_so_far) {
   improved_(best_so_far);
 }
 
-void PlanStopwatch::searched(const SearchProblem&, SweptObstacles&, const SearchResult& result) {
+void PlanStopwatch::searched(const SearchProblem&, SeparationCache&, const SearchResult& result) {
   nodes_ = result.nodes;
 }
 

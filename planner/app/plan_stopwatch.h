@@ -23,7 +23,7 @@ class PlanStopwatch final : public PlanObserver {
   /// Makes later searches keep their nodes.
   void keep_search() { keeps_search_ = true; }
   [[nodiscard]] bool wants_search_nodes() const override { return keeps_search_; }
-  void searched(const SearchProblem&, SweptObstacles&, const SearchResult& result) override;
+  void searched(const SearchProblem&, SeparationCache&, const SearchResult& result) override;
   /// Returns the nodes of the last search.
   [[nodiscard]] std::vector<SearchViewNode> take_nodes() { return std::move(nodes_); }
   /// Returns the measurements. Call it after plan() has returned.

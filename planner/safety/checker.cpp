@@ -18,11 +18,10 @@ BreachReport sphere_breach(const ClampedSpline& spline, const Vec3& centre, doub
 
 }  // namespace
 
-CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacles& obstacles) {
+CheckReport check_separation(const std::vector<PowerCubic>& pieces, SeparationCache& cache) {
   CheckReport report;
   for (std::size_t j = 0; j < pieces.size(); ++j) {
-    const Separated result =
-        separate_interval(obstacles, static_cast<int>(j), pieces[j], report.pairs, report.certificate);
+    const Separated result = separate_interval(cache, static_cast<int>(j), pieces[j], report.pairs, report.certificate);
     const bool fits = report.certificate.size() <= kMaxCertificatePlanes;
     if (result.ok && fits) continue;
     const auto planes = static_cast<double>(report.certificate.size());
@@ -38,14 +37,14 @@ CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacl
   return report;
 }
 
-CheckReport check_plan(const TimedSpline& plan, const HorizonProblem& problem, SweptObstacles& obstacles) {
+CheckReport check_plan(const TimedSpline& plan, const HorizonProblem& problem, SeparationCache& cache) {
   if (auto r = breach_of(plan, plan.start, problem.start, problem.limits, problem.centre_box); !r.ok()) return {r};
   const ClampedSpline spline = plan.spline();
   if (auto r = sphere_breach(spline, problem.start.p, problem.sphere_radius); !r.ok()) return {r};
   std::vector<PowerCubic> pieces;
   pieces.reserve(static_cast<std::size_t>(spline.intervals()));
   for (int j = 0; j < spline.intervals(); ++j) pieces.push_back(spline.power(j));
-  return check_separation(pieces, obstacles);
+  return check_separation(pieces, cache);
 }
 
 }  // namespace tern

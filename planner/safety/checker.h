@@ -8,7 +8,6 @@
 #include "core/world/horizon.h"
 #include "planner/problem/horizon_problem.h"
 #include "planner/safety/interval_separation.h"
-#include "planner/safety/swept_obstacles.h"
 
 namespace tern {
 
@@ -20,12 +19,12 @@ struct CheckReport : BreachReport {
 };
 
 /// Checks a new plan: breach_of() (start, limits, end at rest, flight box), then S with kLimitTolerance, then Eq. 1.
-/// @param obstacles  origin t_s; the first J intervals are the plan's. It must hold every obstacle that can touch the
-/// sphere, not only those that a solver used.
-CheckReport check_plan(const TimedSpline& plan, const HorizonProblem& problem, SweptObstacles& obstacles);
+/// @param cache  its obstacles have the origin t_s; the first J intervals are the plan's. They must be all obstacles
+/// that can touch the sphere, not only those that a solver used.
+CheckReport check_plan(const TimedSpline& plan, const HorizonProblem& problem, SeparationCache& cache);
 
 /// Checks only Eq. 1, for a motion that is already committed.
-/// @param pieces  in powers of u ∈ [0, 1], one per interval of `obstacles`
-CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacles& obstacles);
+/// @param pieces  in powers of u ∈ [0, 1], one per interval of the obstacles
+CheckReport check_separation(const std::vector<PowerCubic>& pieces, SeparationCache& cache);
 
 }  // namespace tern

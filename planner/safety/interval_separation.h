@@ -7,7 +7,7 @@
 
 #include "core/splines/hull_basis.h"
 #include "core/world/horizon.h"
-#include "planner/safety/swept_obstacles.h"
+#include "planner/safety/separation_cache.h"
 
 namespace tern {
 
@@ -40,7 +40,7 @@ struct Separated {
 /// a pure function of hull and points, so anyone can compute it again.
 /// @param power   the curve in powers of u ∈ [0, 1] over the whole interval
 /// @param planes  receives every plane that was needed
-Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
+Separated separate_interval(SeparationCache& cache, int interval, const PowerCubic& power, PairCounts& counts,
                             std::vector<CertificatePlane>& planes);
 
 /// Finds planes for a solver, by the same splitting, from every obstacle whose boxes come nearer than `reach` to those
@@ -51,8 +51,8 @@ Separated separate_interval(SweptObstacles& obstacles, int interval, const Power
 /// @param basis   its hull points represent the curve
 /// @param reach   m
 /// @param planes  receives them
-void find_planes(SweptObstacles& obstacles, const ClampedSpline& spline, HullBasis basis, double reach,
-                 PairCounts& counts, std::vector<CertificatePlane>& planes);
+void find_planes(SeparationCache& cache, const ClampedSpline& spline, HullBasis basis, double reach, PairCounts& counts,
+                 std::vector<CertificatePlane>& planes);
 
 /// Answers the question of separate_interval() with yes or no: for many curves, since it needs neither planes nor
 /// hulls.
@@ -60,7 +60,7 @@ void find_planes(SweptObstacles& obstacles, const ClampedSpline& spline, HullBas
 /// The answers are equal, except that rounding may turn a pair within kTouchingTolerance of touching into "not
 /// separated". The obstacle that blocked the interval last is tested first.
 /// @param points  the curve's hull points (of `form`; MINVO by default) over the whole interval
-bool is_separated(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
+bool is_separated(SeparationCache& cache, int interval, const PowerCubic& power, const Points4& points,
                   PairCounts& counts, HullForm form = {});
 
 /// How long a body at rest stays separated from every obstacle.
@@ -71,7 +71,7 @@ struct ClearTime {
 
 /// Returns the clear time of the body at rest at p, counted from the start of interval `first`. It ends with the last
 /// interval in which the body is separated.
-ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts);
+ClearTime clear_time_at(SeparationCache& cache, int first, const Vec3& p, PairCounts& counts);
 
 /// Returns whether a hold is as long as required. Holds are differences of times, so rounding may make a full one
 /// slightly shorter.

@@ -118,12 +118,7 @@ void SweptObstacles::assign(const std::vector<PlanningObstacle>& obstacles, cons
   for (std::size_t k = 0; k < n; ++k) spans_[k] = microseconds(origin, times[k], times[k + 1]);
   if (neighbours_.size() < n) neighbours_.resize(n);
   for (auto& list : neighbours_) list.clear();
-  last_blocker_.assign(n, -1);
-  slots_.clear();
-  made_.clear();
-  boxes_.clear();
-  hulls_used_ = 0;
-  hulls_made_ = 0;
+  slots_ = 0;
   out_of_reach_ = static_cast<std::int64_t>(obstacles.size() * n);
   const Vec3 slack = body_half_ + Vec3::Constant(kBetaMax);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -141,8 +136,7 @@ void SweptObstacles::add_static(int index, const Box& region) {
   const PlanningObstacle& o = (*obstacles_)[idx(index)];
   const Box box = sweep_box(o, body_half_, origin_, time(0), time(1));
   if (!box.intersects(region)) return;
-  const int slot = static_cast<int>(slots_.size());
-  slots_.push_back(-1);
+  const int slot = slots_++;
   for (int k = 0; k < intervals(); ++k) neighbours_[idx(k)].push_back({box, index, slot});
 }
 
@@ -158,8 +152,7 @@ void SweptObstacles::add_track(int index, const Box& region) {
     if (walk.is_surely_out_of(near)) continue;
     const Box box = grown(walk.bounds(), slack);
     if (!box.intersects(region)) continue;
-    neighbours_[idx(k)].push_back({box, index, static_cast<int>(slots_.size())});
-    slots_.push_back(-1);
+    neighbours_[idx(k)].push_back({box, index, slots_++});
   }
 }
 
@@ -170,88 +163,38 @@ SweptObstacles::Span SweptObstacles::span(const TimePart& part) const {
   return {from + part.index * step, part.is_last() ? to : from + (part.index + 1) * step};
 }
 
-const Box& SweptObstacles::part_box(const Neighbour& neighbour, const TimePart& part) {
-  Box& box = part_of(neighbour, part).box;
-  if (box.isEmpty()) {
-    const Span s = span(part);
-    box = sweep_box(obstacle(neighbour), body_half_, origin_, s.from, s.to);
+Box SweptObstacles::part_box(const Neighbour& neighbour, const TimePart& part) const {
+  const Span s = span(part);
+  return sweep_box(obstacle(neighbour), body_half_, origin_, s.from, s.to);
+}
+
+CentredBox SweptObstacles::box_at_rest(const PlanningObstacle& o) const {
+  if (o.track == nullptr) return {o.box.center(), 0.5 * o.box.sizes() + box_half_};
+  const Vec3 p = o.track->motion.pieces.front().coefficients.col(3);
+  return {p, o.track->half_extents + o.alpha.of(*o.track, 0) + box_half_};
+}
+
+void SweptObstacles::append_sweep(std::vector<CentredBox>& boxes, const Neighbour& neighbour,
+                                  const TimePart& part) const {
+  const PlanningObstacle& o = obstacle(neighbour);
+  if (!o.moves()) {
+    boxes.push_back(box_at_rest(o));
+    return;
   }
-  return box;
+  const Span s = span(part);
+  add_sweep(boxes, *o.track, o.alpha, box_half_, origin_, s.from, s.to);
 }
 
-SweptObstacles::Slot& SweptObstacles::slot_of(const Neighbour& neighbour) {
-  int& at = slots_[idx(neighbour.slot)];
-  if (at < 0) {
-    at = static_cast<int>(made_.size());
-    made_.emplace_back();
-  }
-  return made_[idx(at)];
+CentredBox SweptObstacles::box_at_quarter(int interval, const Neighbour& neighbour, int k) const {
+  const PlanningObstacle& o = obstacle(neighbour);
+  if (!o.moves()) return box_at_rest(o);
+  const double from = time(interval);
+  const double step = (time(interval + 1) - from) / (kQuarters - 1);
+  return box_at(*o.track, o.alpha, box_half_, origin_, from + k * step);
 }
 
-SweptObstacles::Part& SweptObstacles::part_of(const Neighbour& neighbour, const TimePart& part) {
-  return slot_of(neighbour).parts[obstacle(neighbour).moves() ? part.slot() : 0];
-}
-
-SweptObstacles::Part& SweptObstacles::swept_part_of(const Neighbour& neighbour, const TimePart& part) {
-  Part& made = part_of(neighbour, part);
-  if (made.first < 0) {
-    made.first = static_cast<int>(boxes_.size());
-    make_sweep(obstacle(neighbour), span(part));
-    made.count = static_cast<int>(boxes_.size()) - made.first;
-  }
-  return made;
-}
-
-SweptObstacles::Sweep SweptObstacles::sweep(const Neighbour& neighbour, const TimePart& part) {
-  Part& made = swept_part_of(neighbour, part);
-  return {boxes_of(made), made.direction};
-}
-
-const Points& SweptObstacles::hull(const Neighbour& neighbour, const TimePart& part) {
-  Part& made = swept_part_of(neighbour, part);
-  if (made.hull < 0) {
-    made.hull = static_cast<int>(hulls_used_++);
-    if (hulls_.size() < hulls_used_) hulls_.emplace_back();
-    const std::span<const CentredBox> boxes = boxes_of(made);
-    const bool is_box = !obstacle(neighbour).moves() && body_is_box_;
-    hulls_[idx(made.hull)] =
-        is_box ? Points(box_corners(box_around(boxes[0].centre, boxes[0].half))) : make_hull(boxes);
-    hulls_made_ += is_box ? 0 : 1;
-  }
-  return hulls_[idx(made.hull)];
-}
-
-const CentredBox& SweptObstacles::at_quarter(int interval, const Neighbour& neighbour, int k) {
-  Slot& slot = slot_of(neighbour);
-  if (!slot.has_quarters) {
-    const PlanningObstacle& o = obstacle(neighbour);
-    const double from = time(interval);
-    const double step = (time(interval + 1) - from) / (kQuarters - 1);
-    for (int i = 0; i < kQuarters; ++i) {
-      CentredBox& box = slot.quarters[idx(i)];
-      if (o.moves()) {
-        box = box_at(*o.track, o.alpha, box_half_, origin_, from + i * step);
-      } else {
-        box = sweep(neighbour, {interval}).boxes[0];
-      }
-    }
-    slot.has_quarters = true;
-  }
-  return slot.quarters[idx(k)];
-}
-
-void SweptObstacles::make_sweep(const PlanningObstacle& o, Span s) {
-  if (o.track == nullptr) {
-    boxes_.push_back({o.box.center(), 0.5 * o.box.sizes() + box_half_});
-  } else if (!o.moves()) {
-    const Vec3 p = o.track->motion.pieces.front().coefficients.col(3);
-    boxes_.push_back({p, o.track->half_extents + o.alpha.of(*o.track, 0) + box_half_});
-  } else {
-    add_sweep(boxes_, *o.track, o.alpha, box_half_, origin_, s.from, s.to);
-  }
-}
-
-Points SweptObstacles::make_hull(std::span<const CentredBox> boxes) const {
+Points SweptObstacles::hull(const Neighbour& neighbour, std::span<const CentredBox> boxes) const {
+  if (!hull_is_made_by_cgal(neighbour)) return box_corners(box_around(boxes[0].centre, boxes[0].half));
   Points corners(3, 8 * static_cast<Eigen::Index>(boxes.size()));
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     corners.middleCols<8>(8 * static_cast<Eigen::Index>(k)) = box_corners(box_around(boxes[k].centre, boxes[k].half));

@@ -1,10 +1,7 @@
-// The sweeps of all obstacles over one horizon, per time interval: boxes first, sweeps and hulls C_ij when needed
-// (paper §3.2). See docs/planner/separation.md.
+// The sweeps of all obstacles over one horizon, per time interval (paper §3.2). See docs/planner/separation.md.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -54,9 +51,9 @@ struct UTimeSpan {
 /// the convex hull of the boxes of track_sweep.h, which defines β. Most tests use those boxes; only published planes
 /// and `method: joint` need the vertices of the hull.
 ///
-/// assign() makes the boxes of all neighbours. Sweeps and hulls are made at first use, each a pure function of its
-/// inputs. The object keeps its memory: once it has seen the largest horizon, boxes and sweeps allocate nothing. Hulls
-/// are allocated by CGAL.
+/// assign() finds the neighbours of each interval. Sweeps, their boxes and hulls are pure functions of what was
+/// assigned; SeparationCache keeps their results. The object keeps its memory: once it has seen the largest horizon,
+/// assign() allocates nothing.
 class SweptObstacles {
  public:
   /// Has no interval until assign().
@@ -65,8 +62,6 @@ class SweptObstacles {
                  const std::vector<double>& times, const Box& region) {
     assign(obstacles, body, origin, times, region);
   }
-  SweptObstacles(SweptObstacles&&) = default;
-  SweptObstacles& operator=(SweptObstacles&&) = default;
 
   /// @param obstacles  must stay alive until the next assign()
   /// @param origin     the time that `times` counts from
@@ -82,38 +77,34 @@ class SweptObstacles {
   struct Neighbour {
     Box box;       ///< the sweep grown by the whole body: the body touches it only if its centre is inside, W
     int obstacle;  ///< index into the list of assign()
-    int slot;      ///< index of its sweeps and hulls
+    int slot;      ///< number of its sweeps, 0 … slots() − 1; one obstacle at rest has the same in all intervals
   };
   [[nodiscard]] const std::vector<Neighbour>& neighbours(int interval) const { return neighbours_[idx(interval)]; }
-  /// The boxes whose convex hull is C_ij over a part, valid until the next call. For a body that is neither a sphere
-  /// nor a box they exclude the body.
-  struct Sweep {
-    std::span<const CentredBox> boxes;
-    /// The direction that last separated this sweep; zero if there is none. It saves time and changes no answer.
-    /// assign() clears it together with the boxes.
-    Vec3& last_direction;
-  };
-  Sweep sweep(const Neighbour& neighbour, const TimePart& part);
-  /// Returns the extreme points of C_ij over that part, valid until the next assign().
-  const Points& hull(const Neighbour& neighbour, const TimePart& part);
-  /// Returns Neighbour::box for that part alone.
-  const Box& part_box(const Neighbour& neighbour, const TimePart& part);
-  /// Returns the obstacle's box (with α, without β) at the quarter k of the interval, k = 0 … 4. If the curve's point
-  /// at that time is nearer to it than the radius, no part of the interval is separated.
-  /// @pre the body is a sphere or a box
-  static constexpr int kQuarters = 5;
-  const CentredBox& at_quarter(int interval, const Neighbour& neighbour, int k);
+  [[nodiscard]] int slots() const { return slots_; }
 
-  /// Returns the neighbour that last blocked a curve in this interval; −1 if none has.
-  int& last_blocker(int interval) { return last_blocker_[idx(interval)]; }
+  /// Appends the boxes whose convex hull is C_ij over a part. For a body that is neither a sphere nor a box they
+  /// exclude the body.
+  void append_sweep(std::vector<CentredBox>& boxes, const Neighbour& neighbour, const TimePart& part) const;
+  /// Returns the extreme points of C_ij, made of all boxes of its sweep.
+  [[nodiscard]] Points hull(const Neighbour& neighbour, std::span<const CentredBox> boxes) const;
+  /// Returns whether hull() needs CGAL.
+  [[nodiscard]] bool hull_is_made_by_cgal(const Neighbour& neighbour) const {
+    return obstacle(neighbour).moves() || !body_is_box_;
+  }
+  /// Returns Neighbour::box for that part alone.
+  [[nodiscard]] Box part_box(const Neighbour& neighbour, const TimePart& part) const;
+  /// The instants k = 0 … 4 at the quarters of an interval.
+  static constexpr int kQuarters = 5;
+  /// Returns the obstacle's box (with α, without β) at a quarter of the interval. If the curve's point at that time is
+  /// nearer to it than the radius, no part of the interval is separated.
+  /// @pre the body is a sphere or a box
+  [[nodiscard]] CentredBox box_at_quarter(int interval, const Neighbour& neighbour, int k) const;
 
   [[nodiscard]] const PlanningObstacle& obstacle(const Neighbour& c) const { return (*obstacles_)[idx(c.obstacle)]; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] bool body_is_round_or_box() const { return body_is_box_; }
   /// Returns the body's vertices if the sweeps exclude the body, else none.
   [[nodiscard]] const Points& vertices_to_add() const { return body_is_box_ ? no_vertices_ : body_.vertices; }
-  /// Returns how many hulls CGAL has made; static obstacles need none.
-  [[nodiscard]] std::int64_t hulls_made() const { return hulls_made_; }
   /// Returns how many pairs of obstacle and interval were left out because they cannot touch the region.
   [[nodiscard]] std::int64_t pairs_out_of_reach() const { return out_of_reach_; }
 
@@ -121,31 +112,11 @@ class SweptObstacles {
   struct Span {
     double from, to;
   };
-  /// Results for one part of one neighbour.
-  struct Part {
-    int first = -1, count = 0;      ///< its boxes in boxes_; −1 until made
-    int hull = -1;                  ///< its hull in hulls_; −1 until made
-    Vec3 direction = Vec3::Zero();  ///< Sweep::last_direction
-    Box box;                        ///< part_box(); empty until made
-  };
-  /// Results for one neighbour, once more than its box is needed.
-  struct Slot {
-    std::array<Part, TimePart::kSlots> parts;
-    std::array<CentredBox, kQuarters> quarters;
-    bool has_quarters = false;
-  };
 
   void add_track(int index, const Box& region);
   void add_static(int index, const Box& region);
   [[nodiscard]] Span span(const TimePart& part) const;
-  Slot& slot_of(const Neighbour& neighbour);
-  Part& part_of(const Neighbour& neighbour, const TimePart& part);
-  Part& swept_part_of(const Neighbour& neighbour, const TimePart& part);
-  [[nodiscard]] std::span<const CentredBox> boxes_of(const Part& made) const {
-    return {&boxes_[idx(made.first)], static_cast<std::size_t>(made.count)};
-  }
-  void make_sweep(const PlanningObstacle& obstacle, Span span);
-  [[nodiscard]] Points make_hull(std::span<const CentredBox> boxes) const;
+  [[nodiscard]] CentredBox box_at_rest(const PlanningObstacle& obstacle) const;
 
   const std::vector<PlanningObstacle>* obstacles_ = nullptr;
   Body body_;
@@ -156,13 +127,8 @@ class SweptObstacles {
   std::vector<double> times_;
   std::vector<UTimeSpan> spans_;  ///< one per interval
   std::vector<std::vector<Neighbour>> neighbours_;
-  std::vector<int> last_blocker_;
-  std::vector<int> slots_;  ///< by Neighbour::slot: index into made_; −1 until made
-  std::vector<Slot> made_;
-  std::vector<CentredBox> boxes_;  ///< the boxes of all sweeps
-  std::deque<Points> hulls_;       ///< a deque, so that references stay valid
-  std::size_t hulls_used_ = 0;
-  std::int64_t hulls_made_ = 0, out_of_reach_ = 0;
+  int slots_ = 0;
+  std::int64_t out_of_reach_ = 0;
   Points no_vertices_{3, 0};
 };
 

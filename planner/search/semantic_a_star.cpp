@@ -51,11 +51,11 @@ double min_cost_to_go_in_sphere(const SearchProblem& problem) {
 
 class Search {
  public:
-  Search(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles, Budget& budget,
+  Search(const SearchProblem& problem, const SearchConfig& config, SeparationCache& cache, Budget& budget,
          SearchMemory& memory)
       : problem_(problem),
         config_(config),
-        obstacles_(obstacles),
+        cache_(cache),
         budget_(budget),
         dt_(problem.interval_s()),
         basis_(spline_basis(problem.intervals)),
@@ -195,12 +195,12 @@ class Search {
       return false;
     const HullForm form{problem_.hull_basis, problem_.intervals};
     const Points4 points = form.basis == HullBasis::Minvo ? minvo : form.points(j, power, 0.0, 1.0);
-    return is_separated(obstacles_, j, power, points, result_.pairs, form);
+    return is_separated(cache_, j, power, points, result_.pairs, form);
   }
 
   void consider_leaf(const Entry& entry, const Node& n) {
     Leaf leaf{entry.node, false, entry.band, entry.f, 0.0};
-    leaf.hold_s = clear_time_at(obstacles_, problem_.intervals, n.q, result_.pairs).seconds;
+    leaf.hold_s = clear_time_at(cache_, problem_.intervals, n.q, result_.pairs).seconds;
     leaf.holds = lasts(leaf.hold_s, problem_.hold_required_s);
     if (best_.node < 0) give_up_at_ = result_.expansions + config_.hold_expansions;
     if (leaf.is_preferred_to(best_)) best_ = leaf;
@@ -336,7 +336,7 @@ class Search {
 
   const SearchProblem& problem_;
   const SearchConfig& config_;
-  SweptObstacles& obstacles_;
+  SeparationCache& cache_;
   Budget& budget_;
   const double dt_;
   const SplineBasis& basis_;
@@ -357,9 +357,9 @@ class Search {
 
 }  // namespace
 
-SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
+SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SeparationCache& cache,
                              Budget& budget, SearchMemory& memory) {
-  return Search(problem, config, obstacles, budget, memory).run();
+  return Search(problem, config, cache, budget, memory).run();
 }
 
 }  // namespace tern

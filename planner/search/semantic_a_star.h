@@ -65,7 +65,7 @@ struct SearchResult {
 /// The search is deterministic. Derivations are in docs/planner/search.md.
 /// @param obstacles  origin at the start; intervals 0 … J−1 are the plan's, later ones are for the hold
 /// @param memory     for a search no larger than an earlier one, only the control points of the result are allocated
-SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
+SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SeparationCache& cache,
                              Budget& budget, SearchMemory& memory);
 
 }  // namespace tern

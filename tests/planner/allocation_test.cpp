@@ -54,7 +54,7 @@ struct Scene {
 };
 
 TEST(Allocation, SweepsAndSearchesAllocateNothingTheSecondTimeButTheResult) {
-  SweptObstacles swept;
+  SweptHorizon swept;
   SearchMemory memory;
   std::int64_t expansions = 0;
   const Box region = box_around(Vec3::Zero(), Vec3::Constant(4.0));
@@ -62,8 +62,8 @@ TEST(Allocation, SweepsAndSearchesAllocateNothingTheSecondTimeButTheResult) {
     const Scene scene(seed);
     Budget budget = Budget::unlimited();
     const auto search = [&] {
-      swept.assign(scene.obstacles, scene.body, kNow, scene.times, region);
-      const SearchResult result = semantic_a_star(scene.problem, SearchConfig{}, swept, budget, memory);
+      SeparationCache& cache = swept.assign(scene.obstacles, scene.body, kNow, scene.times, region);
+      const SearchResult result = semantic_a_star(scene.problem, SearchConfig{}, cache, budget, memory);
       expansions += result.expansions;
       return result.found;
     };

@@ -21,13 +21,15 @@ std::string fault_of_new(const Plan& plan, const HorizonRequest& request,
   const int intervals = static_cast<int>(plan.trajectory.control_points.cols()) - 3;
   std::vector<double> times;
   for (int k = 0; k <= intervals; ++k) times.push_back(k * plan.trajectory.interval.seconds());
-  SweptObstacles swept(obstacles, request.body, request.t_s, times, Box(Vec3::Constant(-1e5), Vec3::Constant(1e5)));
+  const SweptObstacles swept(obstacles, request.body, request.t_s, times,
+                             Box(Vec3::Constant(-1e5), Vec3::Constant(1e5)));
+  SeparationCache cache(swept);
   HorizonProblem problem;
   problem.start = request.start;
   problem.limits = request.limits;
   problem.sphere_radius = config.sphere_radius_m;
   problem.centre_box = centre_box(request.flight_box, request.body);
-  const CheckReport report = check_plan(plan.trajectory, problem, swept);
+  const CheckReport report = check_plan(plan.trajectory, problem, cache);
   if (report.ok()) return "";
   return fmt::format("the checker: {}, interval {}, obstacle {}", report.text(), report.interval, report.obstacle);
 }

@@ -44,8 +44,9 @@ class CheckPlan : public ::testing::Test {
     const auto obstacles = obstacles_of(tracks);
     std::vector<double> times;
     for (int k = 0; k <= kIntervals; ++k) times.push_back(k * 0.25);
-    SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
-    return check_plan(plan_, problem_, swept);
+    const SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
+    SeparationCache cache(swept);
+    return check_plan(plan_, problem_, cache);
   }
   void expect_fault(Breach breach, int axis) const {
     const CheckReport report = check();
@@ -257,8 +258,9 @@ TEST_F(CheckPlan, RefusesEachPairOfMapBoxAndInterval) {
     const std::vector<PlanningObstacle> obstacles{
         {-1, nullptr, box_around(there + Vec3(0, 5, 0), Vec3::Constant(0.2)), {}},
         {-2, nullptr, box_around(there, Vec3::Constant(0.001)), {}}};
-    SweptObstacles swept(obstacles, body_, kStart, {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5}, kEverywhere);
-    const CheckReport report = check_plan(plan_, problem_, swept);
+    const SweptObstacles swept(obstacles, body_, kStart, {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5}, kEverywhere);
+    SeparationCache cache(swept);
+    const CheckReport report = check_plan(plan_, problem_, cache);
     EXPECT_EQ(report.breach, Breach::NotSeparated);
     EXPECT_EQ(report.obstacle, -2);
   }
@@ -293,8 +295,9 @@ TEST_F(CheckPlan, NeverPassesAPlanThatDenseSamplingSeesCollide) {
     const auto obstacles = obstacles_of(tracks);
     std::vector<double> times;
     for (int k = 0; k <= kIntervals; ++k) times.push_back(k * plan_.interval.seconds());
-    SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
-    const CheckReport report = check_plan(plan_, problem_, swept);
+    const SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
+    SeparationCache cache(swept);
+    const CheckReport report = check_plan(plan_, problem_, cache);
     ASSERT_TRUE(report.ok() || report.breach == Breach::NotSeparated)
         << to_string(report.breach) << " at seed " << seed;
     if (!report.ok()) continue;
@@ -310,8 +313,9 @@ TEST_F(CheckPlan, GivesAPlaneForEveryPairWhoseBoxesOverlap) {
   const auto obstacles = obstacles_of(tracks);
   std::vector<double> times;
   for (int k = 0; k <= kIntervals; ++k) times.push_back(k * 0.25);
-  SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
-  const CheckReport report = check_plan(plan_, problem_, swept);
+  const SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
+  SeparationCache cache(swept);
+  const CheckReport report = check_plan(plan_, problem_, cache);
   ASSERT_TRUE(report.ok());
   for (int j = 0; j < kIntervals; ++j) {
     const Points4 points = plan_.spline().minvo(j);
@@ -349,15 +353,17 @@ TEST(CheckSeparation, JudgesAMotionUnderWayByItsPiecesAlone) {
   for (const int j : {0, 1}) {
     const std::vector<Track> tracks{standing_box(3, box_around(Vec3(0.5 + j, 0, 0), Vec3::Constant(0.1)), kStart)};
     const auto obstacles = obstacles_of(tracks);
-    SweptObstacles swept(obstacles, Body{}, kStart, {0.0, 0.3, 0.6}, kEverywhere);
-    const CheckReport report = check_separation(pieces, swept);
+    const SweptObstacles swept(obstacles, Body{}, kStart, {0.0, 0.3, 0.6}, kEverywhere);
+    SeparationCache cache(swept);
+    const CheckReport report = check_separation(pieces, cache);
     EXPECT_EQ(report.breach, Breach::NotSeparated);
     EXPECT_EQ(report.interval, j);
     EXPECT_EQ(report.obstacle, 3);
   }
   const std::vector<PlanningObstacle> none;
-  SweptObstacles swept(none, Body{}, kStart, {0.0, 0.3, 0.6}, kEverywhere);
-  EXPECT_TRUE(check_separation(pieces, swept).ok());
+  const SweptObstacles swept(none, Body{}, kStart, {0.0, 0.3, 0.6}, kEverywhere);
+  SeparationCache cache(swept);
+  EXPECT_TRUE(check_separation(pieces, cache).ok());
 }
 
 }  // namespace

@@ -45,10 +45,10 @@ Scene random_scene(std::uint64_t seed) {
   return s;
 }
 
-bool is_separated(SweptObstacles& swept, int interval, const PowerCubic& power) {
+bool is_separated(SeparationCache& cache, int interval, const PowerCubic& power) {
   PairCounts counts;
   std::vector<CertificatePlane> planes;
-  return separate_interval(swept, interval, power, counts, planes).ok;
+  return separate_interval(cache, interval, power, counts, planes).ok;
 }
 
 TEST(SeparateInterval, NeverCertifiesACollisionFoundByDenseSampling) {
@@ -57,9 +57,10 @@ TEST(SeparateInterval, NeverCertifiesACollisionFoundByDenseSampling) {
   for (std::uint64_t seed = 1; seed <= 600; ++seed) {
     const Scene s = random_scene(seed);
     const ClampedSpline spline = s.trajectory.spline();
-    SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    const SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    SeparationCache cache(swept);
     for (int j = 0; j < spline.intervals(); ++j) {
-      const bool ok = is_separated(swept, j, spline.power(j));
+      const bool ok = is_separated(cache, j, spline.power(j));
       const UTime from = kOrigin + s.trajectory.interval * j;
       const double gap =
           least_gap(s.trajectory, s.body, s.obstacles, from, from + s.trajectory.interval, Duration{5'000});
@@ -78,14 +79,15 @@ TEST(SeparateInterval, PassesWhateverStaysWellClear) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const Scene s = random_scene(seed);
     const ClampedSpline spline = s.trajectory.spline();
-    SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    const SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    SeparationCache cache(swept);
     for (int j = 0; j < spline.intervals(); ++j) {
       double least = INFINITY;
       for (const auto& neighbour : swept.neighbours(j))
-        least = std::min(least, distance(swept.hull(neighbour, {j, 0, 1}), spline.minvo(j)));
+        least = std::min(least, distance(cache.hull(neighbour, {j, 0, 1}), spline.minvo(j)));
       if (least <= s.body.radius + 2.0 * kTouchingTolerance) continue;
       ++clear;
-      ASSERT_TRUE(is_separated(swept, j, spline.power(j))) << "seed " << seed << ", interval " << j;
+      ASSERT_TRUE(is_separated(cache, j, spline.power(j))) << "seed " << seed << ", interval " << j;
     }
   }
   EXPECT_GT(clear, 200);
@@ -97,13 +99,14 @@ TEST(SeparateInterval, EveryPlaneHoldsTheHullOnOneSideAndThePartOnTheOther) {
   for (std::uint64_t seed = 1; seed <= 600; ++seed) {
     const Scene s = random_scene(seed);
     const ClampedSpline spline = s.trajectory.spline();
-    SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    const SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    SeparationCache cache(swept);
     PairCounts counts;
     std::vector<CertificatePlane> planes;
     if (seed % 2 == 0) {
-      for (int j = 0; j < spline.intervals(); ++j) separate_interval(swept, j, spline.power(j), counts, planes);
+      for (int j = 0; j < spline.intervals(); ++j) separate_interval(cache, j, spline.power(j), counts, planes);
     } else {
-      find_planes(swept, spline, HullBasis::Minvo, 1.0, counts, planes);
+      find_planes(cache, spline, HullBasis::Minvo, 1.0, counts, planes);
     }
     for (const CertificatePlane& c : planes) {
       const TimePart part{c.interval, c.part, c.parts};
@@ -114,7 +117,7 @@ TEST(SeparateInterval, EveryPlaneHoldsTheHullOnOneSideAndThePartOnTheOther) {
       const auto of = std::find_if(neighbours.begin(), neighbours.end(),
                                    [&](const auto& neighbour) { return swept.obstacle(neighbour).id == c.track; });
       ASSERT_NE(of, neighbours.end());
-      const Points& hull = swept.hull(*of, part);
+      const Points& hull = cache.hull(*of, part);
       for (Eigen::Index k = 0; k < hull.cols(); ++k) ASSERT_GE(c.plane.signed_distance(hull.col(k)), 0.0);
       const Points4 curve = spline.minvo(part.interval, part.u0(), part.u1());
       for (int k = 0; k < 4; ++k) {
@@ -133,8 +136,8 @@ TEST(IsClear, SaysWhatSeparateIntervalSays) {
   for (std::uint64_t seed = 1; seed <= 600; ++seed) {
     const Scene s = random_scene(seed);
     const ClampedSpline spline = s.trajectory.spline();
-    SweptObstacles planes(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
-    SweptObstacles asked(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    const SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    SeparationCache planes(swept), asked(swept);
     for (int j = 0; j < spline.intervals(); ++j) {
       const bool ok = is_separated(planes, j, spline.power(j));
       // A second call, with the memory of the first, gives the same result.
@@ -155,27 +158,29 @@ TEST(SeparateInterval, SplitsTheIntervalInTimeWhereOnePlaneDoesNotDo) {
   // y.
   const std::vector<Track> tracks{straight_mover(7, Vec3::Zero(), Vec3(0, 12, 0), 0.3, kOrigin, 1.0)};
   const auto obstacles = obstacles_of(tracks);
-  SweptObstacles swept(obstacles, Body{}, kOrigin, {0.0, 0.5}, kEverywhere);
+  const SweptObstacles swept(obstacles, Body{}, kOrigin, {0.0, 0.5}, kEverywhere);
+  SeparationCache cache(swept);
   PowerCubic along_x = PowerCubic::Zero();
   along_x.col(2) = Vec3(3, 0, 0);
   along_x.col(3) = Vec3(-1.5, 0, 0);
-  EXPECT_LT(distance(swept.hull(swept.neighbours(0)[0], {0, 0, 1}), minvo_points(along_x)), 1e-9);
-  EXPECT_LT(distance(swept.hull(swept.neighbours(0)[0], {0, 0, 2}), HullForm{}.points(0, along_x, 0.0, 0.5)), 1e-9);
-  EXPECT_TRUE(is_separated(swept, 0, along_x));
+  EXPECT_LT(distance(cache.hull(swept.neighbours(0)[0], {0, 0, 1}), minvo_points(along_x)), 1e-9);
+  EXPECT_LT(distance(cache.hull(swept.neighbours(0)[0], {0, 0, 2}), HullForm{}.points(0, along_x, 0.0, 0.5)), 1e-9);
+  EXPECT_TRUE(is_separated(cache, 0, along_x));
 }
 
 TEST(SeparateInterval, NamesWhatBlocks) {
   const std::vector<Track> tracks{straight_mover(7, Vec3(9, 0, 0), Vec3::Zero(), 0.3, kOrigin, 1.0),
                                   straight_mover(8, Vec3(0.5, 0, 0), Vec3::Zero(), 0.3, kOrigin, 1.0)};
   const auto obstacles = obstacles_of(tracks);
-  SweptObstacles swept(obstacles, Body{}, kOrigin, {0.0, 0.5}, kEverywhere);
+  const SweptObstacles swept(obstacles, Body{}, kOrigin, {0.0, 0.5}, kEverywhere);
+  SeparationCache cache(swept);
   PairCounts counts;
   std::vector<CertificatePlane> planes;
-  const Separated result = separate_interval(swept, 0, PowerCubic::Zero(), counts, planes);
+  const Separated result = separate_interval(cache, 0, PowerCubic::Zero(), counts, planes);
   EXPECT_TRUE(result.ok);
   PowerCubic there = PowerCubic::Zero();
   there.col(3) = Vec3(0.4, 0, 0);
-  const Separated blocked = separate_interval(swept, 0, there, counts, planes);
+  const Separated blocked = separate_interval(cache, 0, there, counts, planes);
   EXPECT_FALSE(blocked.ok);
   EXPECT_EQ(blocked.blocker, 8);
 }
@@ -184,11 +189,12 @@ TEST(ClearTimeAt, TheBodyTouchesNothingAsLongAsItSays) {
   int cut = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     const Scene s = random_scene(seed);
-    SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    const SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    SeparationCache cache(swept);
     const int first = static_cast<int>(seed % 3);
     const Vec3 p = s.trajectory.control_points.col(0);
     PairCounts counts;
-    const double clear = clear_time_at(swept, first, p, counts).seconds;
+    const double clear = clear_time_at(cache, first, p, counts).seconds;
     const double whole = s.times.back() - swept.time(first);
     ASSERT_LE(clear, whole + 1e-12);
     if (clear > 0.0) {
@@ -203,7 +209,7 @@ TEST(ClearTimeAt, TheBodyTouchesNothingAsLongAsItSays) {
       while (swept.time(k) - swept.time(first) < clear - 1e-9) ++k;
       double nearest = INFINITY;
       for (const auto& neighbour : swept.neighbours(k))
-        nearest = std::min(nearest, distance(swept.hull(neighbour, {k, 0, 1}), Points(p)));
+        nearest = std::min(nearest, distance(cache.hull(neighbour, {k, 0, 1}), Points(p)));
       ASSERT_LE(nearest, s.body.radius + 2.0 * kTouchingTolerance) << "seed " << seed;
     }
   }
@@ -218,9 +224,10 @@ TEST(ClearTimeAt, AFullHoldLastsWhateverTheTimeBeforeIt) {
     const double duration = rng.uniform(0.1, 3.0);
     const double hold = random_integer(rng, 1, 30) * 0.1;
     const std::vector<double> times = {0.0, duration, duration + hold};
-    SweptObstacles swept({}, Body{}, kOrigin, times, kEverywhere);
+    const SweptObstacles swept({}, Body{}, kOrigin, times, kEverywhere);
+    SeparationCache cache(swept);
     PairCounts counts;
-    const double clear = clear_time_at(swept, 1, Vec3::Zero(), counts).seconds;
+    const double clear = clear_time_at(cache, 1, Vec3::Zero(), counts).seconds;
     if (clear < hold) ++less;
     ASSERT_TRUE(lasts(clear, hold)) << "seed " << seed;
     ASSERT_FALSE(lasts(clear, hold + 1e-6)) << "seed " << seed;

@@ -1,5 +1,3 @@
-#include "planner/safety/swept_obstacles.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "core/geometry/convex_hull.h"
 #include "core/geometry/distance.h"
 #include "planner/planning_world.h"
+#include "planner/safety/separation_cache.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"
 
@@ -69,14 +68,15 @@ double true_support(const Case& c, double from, double to, const Vec3& d) {
 /// Calls check(hull, from, to) for the hull of every part of every interval.
 template <class Check>
 void for_each_hull(const Case& c, Check&& check) {
-  SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
+  const SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
+  SeparationCache cache(swept);
   for (int k = 0; k < swept.intervals(); ++k) {
     ASSERT_EQ(swept.neighbours(k).size(), 1u);
     for (const int parts : {1, 2, 4}) {
       for (int part = 0; part < parts; ++part) {
         const double step = (swept.time(k + 1) - swept.time(k)) / parts;
         const double from = swept.time(k) + part * step;
-        check(swept.hull(swept.neighbours(k)[0], {k, part, parts}), from, from + step);
+        check(cache.hull(swept.neighbours(k)[0], {k, part, parts}), from, from + step);
       }
     }
   }
@@ -133,9 +133,10 @@ TEST(SweptObstacles, AnAbsurdAccelerationCostsAWiderHullNotMemory) {
   const std::vector<Track> tracks = {track};
   const auto obstacles = obstacles_of(tracks);
   const Box everywhere(Vec3::Constant(-1e12), Vec3::Constant(1e12));
-  SweptObstacles swept(obstacles, Body{}, kOrigin, std::vector<double>{0.0, 0.5, 1.0}, everywhere);
+  const SweptObstacles swept(obstacles, Body{}, kOrigin, std::vector<double>{0.0, 0.5, 1.0}, everywhere);
+  SeparationCache cache(swept);
   ASSERT_EQ(swept.neighbours(1).size(), 1u);
-  const Points& hull = swept.hull(swept.neighbours(1)[0], {1, 0, 1});
+  const Points& hull = cache.hull(swept.neighbours(1)[0], {1, 0, 1});
   EXPECT_LT(hull.cols(), 5000);
   for (int i = 0; i <= 1000; ++i) {
     const double t = 0.5 + 0.5 * i / 1000;
@@ -160,15 +161,16 @@ TEST(SweptObstacles, NeighbourAndPartBoxesHoldTheHullGrownByTheBall) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
     const Case c = random_case(rng);
-    SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
+    const SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
+    SeparationCache cache(swept);
     for (int k = 0; k < swept.intervals(); ++k) {
       const SweptObstacles::Neighbour& neighbour = swept.neighbours(k)[0];
       for (const int parts : {1, 2, 4}) {
         for (int part = 0; part < parts; ++part) {
-          const Points& hull = swept.hull(neighbour, {k, part, parts});
+          const Points& hull = cache.hull(neighbour, {k, part, parts});
           const Vec3 ball = Vec3::Constant(c.body.radius - kRounding);
           const Box needed = grown(Box(hull.rowwise().minCoeff(), hull.rowwise().maxCoeff()), ball);
-          ASSERT_TRUE(swept.part_box(neighbour, {k, part, parts}).contains(needed)) << "seed " << seed;
+          ASSERT_TRUE(cache.part_box(neighbour, {k, part, parts}).contains(needed)) << "seed " << seed;
           ASSERT_TRUE(neighbour.box.contains(needed)) << "seed " << seed;
         }
       }
@@ -182,7 +184,8 @@ TEST(SweptObstacles, KeepsEveryObstacleThatTheBodyCanTouchFromTheRegion) {
     Rng rng(seed);
     const Case c = random_case(rng);
     const Box region = box_around(random_vector(rng, 4.0), Vec3::Constant(rng.uniform(0.0, 2.0)));
-    SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, region);
+    const SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, region);
+    SeparationCache cache(swept);
     for (int k = 0; k < swept.intervals(); ++k) {
       if (!swept.neighbours(k).empty()) continue;
       ++left_out;
@@ -210,7 +213,7 @@ TEST(SweptObstacles, BoxesThatAPredictionSetBringsSpareWorkAndChangeNothing) {
     without[0].boxes = nullptr;
     const Vec3 centre = random_vector(rng, 3.0);
     const Box region(centre - Vec3::Constant(1.5), centre + Vec3::Constant(1.5));
-    SweptObstacles a(with, c.body, kOrigin, c.times, region), b(without, c.body, kOrigin, c.times, region);
+    const SweptObstacles a(with, c.body, kOrigin, c.times, region), b(without, c.body, kOrigin, c.times, region);
     for (int k = 0; k < a.intervals(); ++k) {
       ASSERT_EQ(a.neighbours(k).size(), b.neighbours(k).size()) << "seed " << seed << ", interval " << k;
       if (a.neighbours(k).empty()) {
@@ -219,7 +222,9 @@ TEST(SweptObstacles, BoxesThatAPredictionSetBringsSpareWorkAndChangeNothing) {
       }
       ++kept;
       ASSERT_TRUE(a.neighbours(k)[0].box.isApprox(b.neighbours(k)[0].box, 0.0)) << "seed " << seed;
-      ASSERT_EQ(a.hull(a.neighbours(k)[0], {k, 0, 1}), b.hull(b.neighbours(k)[0], {k, 0, 1})) << "seed " << seed;
+      ASSERT_EQ(SeparationCache(a).hull(a.neighbours(k)[0], {k, 0, 1}),
+                SeparationCache(b).hull(b.neighbours(k)[0], {k, 0, 1}))
+          << "seed " << seed;
     }
   }
   EXPECT_GT(kept, 200);
@@ -230,11 +235,12 @@ TEST(SweptObstacles, BeforeItsFirstPieceAndAfterItsLastATrackIsAGrowingBox) {
   const Track track = straight_mover(1, Vec3(1, 0, 0), Vec3(2, 0, 0), 0.5, kOrigin + Duration{1'000'000}, 1.0);
   const std::vector<Track> tracks{track};
   const auto obstacles = obstacles_of(tracks);
-  SweptObstacles swept(obstacles, Body{}, kOrigin, {0.25, 0.5, 2.5, 3.0}, kEverywhere);
-  const Points& before = swept.hull(swept.neighbours(0)[0], {0, 0, 1});
+  const SweptObstacles swept(obstacles, Body{}, kOrigin, {0.25, 0.5, 2.5, 3.0}, kEverywhere);
+  SeparationCache cache(swept);
+  const Points& before = cache.hull(swept.neighbours(0)[0], {0, 0, 1});
   EXPECT_NEAR(support(before, Vec3(1, 0, 0)), 1.0 + 0.5 + 2.0 * 0.75, kRounding);
   EXPECT_NEAR(support(before, Vec3(0, 0, -1)), 0.5 + 2.0 * 0.75, kRounding);
-  const Points& after = swept.hull(swept.neighbours(2)[0], {2, 0, 1});
+  const Points& after = cache.hull(swept.neighbours(2)[0], {2, 0, 1});
   EXPECT_NEAR(support(after, Vec3(1, 0, 0)), 3.0 + 0.5 + 2.0, kRounding);
   EXPECT_NEAR(support(after, Vec3(0, 1, 0)), 0.5 + 2.0, kRounding);
 }
@@ -245,12 +251,13 @@ TEST(SweptObstacles, BoxesOfTheMapAndStaticTracksHaveOneHullForAllTime) {
   obstacles.push_back({-1, nullptr, Box(Vec3(5, 5, 5), Vec3(6, 6, 6)), {}});
   for (const BodyKind kind : kBodyKinds) {
     const Body body = body_of(kind);
-    SweptObstacles swept(obstacles, body, kOrigin, {0.0, 1.0, 2.0, 900.0}, kEverywhere);
+    const SweptObstacles swept(obstacles, body, kOrigin, {0.0, 1.0, 2.0, 900.0}, kEverywhere);
+    SeparationCache cache(swept);
     for (int k = 0; k < 3; ++k) {
       ASSERT_EQ(swept.neighbours(k).size(), 2u);
       for (const auto& neighbour : swept.neighbours(k)) {
-        const Points& hull = swept.hull(neighbour, {k, k, 4});
-        EXPECT_EQ(&hull, &swept.hull(swept.neighbours(0)[static_cast<std::size_t>(neighbour.obstacle)], {0, 0, 1}));
+        const Points& hull = cache.hull(neighbour, {k, k, 4});
+        EXPECT_EQ(&hull, &cache.hull(swept.neighbours(0)[static_cast<std::size_t>(neighbour.obstacle)], {0, 0, 1}));
         for (int axis = 0; axis < 3; ++axis) {
           const Vec3 d = Vec3::Unit(axis);
           EXPECT_NEAR(support(hull, d), swept.obstacle(neighbour).box.max()[axis] + support(-body.vertices, d),
@@ -258,18 +265,45 @@ TEST(SweptObstacles, BoxesOfTheMapAndStaticTracksHaveOneHullForAllTime) {
         }
       }
     }
-    EXPECT_EQ(swept.hulls_made(), kind == BodyKind::Polytope ? 2 : 0) << "a box needs no CGAL";
+    EXPECT_EQ(cache.hulls_made(), kind == BodyKind::Polytope ? 2 : 0) << "a box needs no CGAL";
   }
 }
 
 TEST(SweptObstacles, AHullDependsOnNothingButItsOwnInputs) {
   Rng rng(5);
   const Case c = random_case(rng);
-  SweptObstacles forward(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
-  SweptObstacles backward(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
-  for (int k = backward.intervals() - 1; k >= 0; --k) (void)backward.hull(backward.neighbours(k)[0], {k, 1, 2});
-  for (int k = 0; k < forward.intervals(); ++k) {
-    EXPECT_EQ(forward.hull(forward.neighbours(k)[0], {k, 1, 2}), backward.hull(backward.neighbours(k)[0], {k, 1, 2}));
+  const SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
+  SeparationCache forward(swept), backward(swept);
+  for (int k = swept.intervals() - 1; k >= 0; --k) (void)backward.hull(swept.neighbours(k)[0], {k, 1, 2});
+  for (int k = 0; k < swept.intervals(); ++k) {
+    EXPECT_EQ(forward.hull(swept.neighbours(k)[0], {k, 1, 2}), backward.hull(swept.neighbours(k)[0], {k, 1, 2}));
+  }
+}
+
+TEST(SeparationCache, WhatItReturnsStaysWhereItIsUntilItIsStartedAnew) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Rng rng(seed);
+    const Case c = random_case(rng);
+    const SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
+    SeparationCache cache(swept);
+    const auto& first = swept.neighbours(0)[0];
+    const auto [boxes, direction] = cache.sweep(first, {0});
+    const std::vector<CentredBox> kept(boxes.begin(), boxes.end());
+    const Points& hull = cache.hull(first, {0});
+    const Points kept_hull = hull;
+    direction = Vec3(1, 2, 3);
+    for (int k = 0; k < swept.intervals(); ++k) {
+      for (int part = 0; part < 4; ++part) (void)cache.hull(swept.neighbours(k)[0], {k, part, 4});
+    }
+    EXPECT_EQ(boxes.data(), cache.sweep(first, {0}).boxes.data());
+    EXPECT_TRUE(std::equal(boxes.begin(), boxes.end(), kept.begin(), kept.end(),
+                           [](const auto& a, const auto& b) { return a.centre == b.centre && a.half == b.half; }));
+    EXPECT_EQ(&hull, &cache.hull(first, {0}));
+    EXPECT_EQ(hull, kept_hull);
+    EXPECT_EQ(cache.sweep(first, {0}).last_direction, Vec3(1, 2, 3));
+    cache.start(swept);
+    EXPECT_TRUE(cache.sweep(first, {0}).last_direction.isZero(0.0));
+    EXPECT_EQ(cache.hull(first, {0}), kept_hull);
   }
 }
 

@@ -37,14 +37,16 @@ struct Scene {
     return {obstacles, body, kStart, std::move(times), box_around(problem.start.p, Vec3::Constant(kRadius))};
   }
   [[nodiscard]] SearchResult search(const SearchConfig& config = {}) const {
-    SweptObstacles swept = sweep();
+    const SweptObstacles swept = sweep();
+    SeparationCache cache(swept);
     Budget budget = Budget::unlimited();
     SearchMemory memory;
-    return semantic_a_star(problem, config, swept, budget, memory);
+    return semantic_a_star(problem, config, cache, budget, memory);
   }
   [[nodiscard]] CheckReport check(const SearchResult& result) const {
-    SweptObstacles swept = sweep();
-    return check_plan({kStart, problem.interval, result.control_points}, problem, swept);
+    const SweptObstacles swept = sweep();
+    SeparationCache cache(swept);
+    return check_plan({kStart, problem.interval, result.control_points}, problem, cache);
   }
 };
 
@@ -132,9 +134,10 @@ TEST(SemanticAStar, WhatItSaysOfItsLeafIsTrue) {
     if (!result.found) continue;
     const Vec3 end = result.control_points.rightCols<1>();
     EXPECT_EQ(result.cost_to_go, s.problem.cost_to_go.from(end));
-    SweptObstacles swept = s.sweep();
+    const SweptObstacles swept = s.sweep();
+    SeparationCache cache(swept);
     PairCounts counts;
-    EXPECT_EQ(result.hold_s, clear_time_at(swept, s.problem.intervals, end, counts).seconds);
+    EXPECT_EQ(result.hold_s, clear_time_at(cache, s.problem.intervals, end, counts).seconds);
   }
 }
 
@@ -159,12 +162,12 @@ TEST(SemanticAStar, ABudgetCutReplaysToTheSameBits) {
     const Scene s = random_scene(seed);
     for (const std::int64_t n : {0, 3, 17, 90}) {
       Budget live([n](const BudgetCut& here) { return here.stage == Stage::Search && here.count >= n; });
-      SweptObstacles swept = s.sweep();
+      const SweptObstacles swept = s.sweep();
+      SeparationCache cache(swept), again(swept);
       SearchMemory memory;
-      const SearchResult first = semantic_a_star(s.problem, SearchConfig{}, swept, live, memory);
+      const SearchResult first = semantic_a_star(s.problem, SearchConfig{}, cache, live, memory);
       ASSERT_LE(live.cuts().size(), 1u);
       Budget replay = Budget::replay(live.cuts());
-      SweptObstacles again = s.sweep();
       const SearchResult second = semantic_a_star(s.problem, SearchConfig{}, again, replay, memory);
       ASSERT_EQ(first.found, second.found);
       ASSERT_EQ(first.control_points, second.control_points) << "seed " << seed << ", cut at " << n;
