@@ -96,7 +96,7 @@ double way_speed(const MapProducts& map, const Limits& limits);
 
 /// Returns the field of distances to a goal around the boxes of map and static tracks. Distances include the exposure
 /// cost if map->semantic_paths, or the price of drift with an error price. Takes about 100 ms, with regions about 300
-/// ms, with an error price a second. The field keeps the map alive.
+/// ms, with an error price as much. The field keeps the map alive.
 /// @param static_boxes  boxes of static tracks, not inflated, W
 /// @param start  enlarges the region that is searched
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,

@@ -12,6 +12,7 @@
 #include "messages/channels.h"
 #include "monitor/app/subscribe_flight.h"
 #include "planner/app/config_reader.h"
+#include "planner/kept_field.h"
 #include "planner/planner_build.h"
 #include "runtime/batches.h"
 #include "runtime/bus.h"
@@ -128,14 +129,14 @@ class SteppedPlanner final : public Node {
     const GoalFieldKey key{goal_->position,   fields.map->version,
                            statics_.digest(), body_box(grown(open_->body, open_->tube)),
                            open_->flight_box, way_speed(*fields.map, open_->limits)};
-    const bool same = fields.goal && fields.goal->field && fields.goal->key == key;
-    GoalFieldInputs from = same ? fields.goal->made_from
-                                : GoalFieldInputs{fields.map->version, statics_.epoch_us(), statics_.first_set(),
-                                                  statics_.digest(), open_->header.name};
-    auto field =
-        same ? fields.goal->field
-             : std::make_shared<const GoalField>(make_goal_field(key, fields.map, statics_.boxes(), open_->start.p));
-    return std::make_shared<const GoalProducts>(GoalProducts{*goal_, key, std::move(field), from});
+    if (fields.goal && fields.goal->field && serves(fields.goal->key, key)) {
+      return std::make_shared<const GoalProducts>(
+          GoalProducts{*goal_, fields.goal->key, fields.goal->field, fields.goal->made_from});
+    }
+    const GoalFieldInputs from{fields.map->version, statics_.epoch_us(), statics_.first_set(), statics_.digest(),
+                               open_->header.name};
+    KeptField made = make_kept_field(key, fields.map, statics_.boxes(), open_->start.p);
+    return std::make_shared<const GoalProducts>(GoalProducts{*goal_, made.key, std::move(made.field), from});
   }
 
   Bus& bus_;

@@ -7,6 +7,7 @@
 #include "core/world/body.h"
 #include "messages/batching.h"
 #include "messages/channels.h"
+#include "planner/kept_field.h"
 #include "runtime/log.h"
 
 namespace tern {
@@ -142,20 +143,20 @@ void WorldIntake::prepare() {
   if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
   const GoalFieldKey key{newest_goal_->position,        world.map->version, statics_.digest(), body_, flight_box_,
                          way_speed(*world.map, limits_)};
-  if (world.goal && world.goal->field && world.goal->key == key) {
+  if (world.goal && world.goal->field && serves(world.goal->key, key)) {
     // A repeated goal is published by its new name: plans then name a message that a late logger has received.
     if (world.goal->goal.header.name == newest_goal_->header.name) return;
-    return publish(goal_number_, std::make_shared<const GoalProducts>(
-                                     GoalProducts{*newest_goal_, key, world.goal->field, world.goal->made_from}));
+    return publish(goal_number_, std::make_shared<const GoalProducts>(GoalProducts{
+                                     *newest_goal_, world.goal->key, world.goal->field, world.goal->made_from}));
   }
   const GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
   const bool is_new = !world.goal || world.goal->goal.id != newest_goal_->id;
   start([this, is_new, number = goal_number_, goal = *newest_goal_, key, names, map = world.map,
          boxes = statics_.boxes(), at = position_] {
-    auto field = std::make_shared<const GoalField>(make_goal_field(key, map, boxes, at));
+    auto [field, made_for] = make_kept_field(key, map, boxes, at);
     std::string blocked;
     if (!field->path_from(at)) {
-      blocked = fmt::format("goal {} is blocked: {}", goal.id, blocked_goal_text(*field, key, boxes, at, places_));
+      blocked = fmt::format("goal {} is blocked: {}", goal.id, blocked_goal_text(*field, made_for, boxes, at, places_));
       log::warn("{}", blocked);
     }
     note_blocked(std::move(blocked));
@@ -163,7 +164,7 @@ void WorldIntake::prepare() {
       log::info("error of the position foretold for goal {}: σ {:.2f} m there, {:.2f} m at the worst place", goal.id,
                 error->at_goal, error->at_worst);
     }
-    publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names}));
+    publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, made_for, std::move(field), names}));
   });
 }
 

@@ -1,6 +1,6 @@
 #include "planner/semantics/camera_information.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -20,16 +20,14 @@ void ViewInformation::add(const Vec3& displacement, double count, const TextureC
   const double across = count * camera.focal_px * camera.focal_px / (2.0 * r2);
   const double along =
       count * camera.focal_px * camera.focal_px * camera.baseline_m * camera.baseline_m / (4.0 * r2 * r2);
-  const Eigen::Matrix3d W =
-      across * Eigen::Matrix3d::Identity() + ((along - across) / r2) * displacement * displacement.transpose();
-  Eigen::Matrix3d X;  // −[x]×
+  const Eigen::Matrix3d xx = displacement * displacement.transpose(), one = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d X;  // −[x]×, and W X = across X since xᵀ[x]× = 0
   X << 0.0, displacement.z(), -displacement.y(), -displacement.z(), 0.0, displacement.x(), displacement.y(),
       -displacement.x(), 0.0;
-  const Eigen::Matrix3d WX = W * X;
-  information.topLeftCorner<3, 3>() += X.transpose() * WX;
-  information.bottomLeftCorner<3, 3>() += WX;
-  information.topRightCorner<3, 3>() += WX.transpose();
-  information.bottomRightCorner<3, 3>() += W;
+  information.topLeftCorner<3, 3>() += across * (r2 * one - xx);
+  information.bottomLeftCorner<3, 3>() += across * X;
+  information.topRightCorner<3, 3>() += across * X.transpose();
+  information.bottomRightCorner<3, 3>() += across * one + ((along - across) / r2) * xx;
   landmarks += count;
 }
 
@@ -46,11 +44,14 @@ FrameSigma frame_sigma(const ViewInformation& view, const TextureCamera& camera)
   Mat6 information = share * view.information;
   information.diagonal().head<3>().array() += kNoRotation;
   information.diagonal().tail<3>().array() += kNoTranslation;
-  const Mat6 alone = information.llt().solve(Mat6::Identity());
+  // The blocks of the inverse by Schur complements: inverses of 3 × 3 take a tenth of the time of one of 6 × 6.
+  const Eigen::Matrix3d turns = information.topLeftCorner<3, 3>(), moves = information.bottomRightCorner<3, 3>(),
+                        both = information.topRightCorner<3, 3>();
   const double gyroscope = 1.0 / (kFlightNoise.rate * kFlightNoise.rate * camera.frame_s);
-  information.diagonal().head<3>().array() += gyroscope;
-  const Mat6 helped = information.llt().solve(Mat6::Identity());
-  return {std::sqrt(helped.bottomRightCorner<3, 3>().trace()), std::sqrt(alone.topLeftCorner<3, 3>().trace() / 3.0)};
+  const Eigen::Matrix3d helped = turns + gyroscope * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d C_tt = (moves - both.transpose() * helped.inverse() * both).inverse();
+  const Eigen::Matrix3d C_rr = (turns - both * moves.inverse() * both.transpose()).inverse();
+  return {std::sqrt(C_tt.trace()), std::sqrt(C_rr.trace() / 3.0)};
 }
 
 }  // namespace tern

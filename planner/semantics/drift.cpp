@@ -34,18 +34,31 @@ double dark_growth(double t) {
   return t * (2.0 * kDark.c2 + t * (3.0 * kDark.c3 + t * (4.0 * kDark.c4 + t * (5.0 * kDark.c5 + t * 6.0 * kDark.c6))));
 }
 
+namespace {
+
+/// The derivative of dark_growth(), m²/s².
+double dark_acceleration(double t) {
+  return 2.0 * kDark.c2 + t * (6.0 * kDark.c3 + t * (12.0 * kDark.c4 + t * (20.0 * kDark.c5 + t * 30.0 * kDark.c6)));
+}
+constexpr int kNewtonSteps = 20;  ///< five are usual
+
+}  // namespace
+
 double sighted_growth(double translation_m, double frame_s) {
   return kTrackGain * kTrackGain * translation_m * translation_m / frame_s;
 }
 
 double equal_dark_time(double growth) {
-  double low = 0.0, high = kLongestDark;
-  if (dark_growth(high) <= growth) return high;
-  for (int k = 0; k < 40; ++k) {
-    const double middle = 0.5 * (low + high);
-    (dark_growth(middle) < growth ? low : high) = middle;
+  if (dark_growth(kLongestDark) <= growth) return kLongestDark;
+  // Each term alone bounds τ from above. The growth is convex there, so Newton's steps descend to the solution.
+  double t = std::min({growth / (2.0 * kDark.c2), std::sqrt(growth / (3.0 * kDark.c3)),
+                       std::sqrt(std::sqrt(growth / (5.0 * kDark.c5)))});
+  for (int k = 0; k < kNewtonSteps; ++k) {
+    const double excess = dark_growth(t) - growth;
+    if (excess <= 1e-12 * growth) break;
+    t -= excess / dark_acceleration(t);
   }
-  return 0.5 * (low + high);
+  return t;
 }
 
 void Drift::extend(double length, double seconds, double growth, double equal_dark_s) {

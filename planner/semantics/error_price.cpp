@@ -17,10 +17,13 @@ double ErrorPrice::extend(const Vec3& a, const Vec3& b, Drift& drift) const {
   const double length = step.norm();
   const int samples = static_cast<int>(length / kSample) + 1;
   const int heading = InformationMap::heading_of(step.x(), step.y());
-  for (int k = samples - 1; k >= 0; --k) {  // from b to a
-    const Sight& sight = information_->sight(a + ((k + 0.5) / samples) * step, heading);
-    drift.extend(length / samples, length / (samples * speed_), static_cast<double>(sight.growth),
-                 static_cast<double>(sight.equal_dark_s));
+  const double share = 1.0 / samples, part = share * length, seconds = part / speed_;
+  const Vec3 between = share * step;
+  Vec3 p = b - 0.5 * between;
+  for (int k = 0; k < samples; ++k) {  // from b to a
+    const Sight& sight = information_->sight(p, heading);
+    drift.extend(part, seconds, static_cast<double>(sight.growth), static_cast<double>(sight.equal_dark_s));
+    p -= between;
   }
   return cost(drift);
 }

@@ -14,6 +14,7 @@ constexpr int kRings = 8;             ///< samples of the ground along a ray, at
 constexpr int kHeights = 4;           ///< samples of an upright side
 constexpr double kNearest = 0.5;      ///< surfaces nearer than this are not sampled, m
 constexpr double kLeastHeight = 0.1;  ///< a camera lower than this sees no ground, m
+constexpr double kAside = 2.0;        ///< beyond the extent of the surfaces there is open ground, m: more than a column
 
 /// Adds the upright side that a ray meets between two columns, at distance s.
 void add_side(const SurfaceColumn& side, const Vec3& eye, const Eigen::Vector2d& direction, double cosine, double s,
@@ -32,6 +33,25 @@ void add_side(const SurfaceColumn& side, const Vec3& eye, const Eigen::Vector2d&
   }
 }
 
+/// The part of a ray, from its start on, that may meet columns other than open ground: the distances where it enters
+/// the extent of the surfaces and leaves it, with kAside on each side; both 0 if it never does.
+std::pair<double, double> within_extent(const SurfaceMap& surfaces, const Vec3& eye, const Eigen::Vector2d& direction,
+                                        double range) {
+  if (surfaces.extent().isEmpty()) return {0.0, 0.0};
+  double enter = 0.0, leave = range;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double low = surfaces.extent().min()[axis] - kAside - eye[axis];
+    const double high = surfaces.extent().max()[axis] + kAside - eye[axis], d = direction[axis];
+    if (std::abs(d) < 1e-9) {
+      if (low > 0.0 || high < 0.0) return {0.0, 0.0};
+      continue;
+    }
+    enter = std::max(enter, std::min(low / d, high / d));
+    leave = std::min(leave, std::max(low / d, high / d));
+  }
+  return enter < leave ? std::pair(enter, leave) : std::pair(0.0, 0.0);
+}
+
 /// Adds the sides along a ray. Returns where it ends: at an opaque column, or at the camera's range, m.
 double add_sides(const SurfaceMap& surfaces, const Vec3& eye, const Eigen::Vector2d& direction, double width,
                  const TextureCamera& camera, ViewInformation& view) {
@@ -39,8 +59,9 @@ double add_sides(const SurfaceMap& surfaces, const Vec3& eye, const Eigen::Vecto
   const SurfaceColumn* before = &surfaces.at(eye.x(), eye.y());
   int column = surfaces.column_of(eye.x(), eye.y());
   Eigen::Vector2d p_before = eye.head<2>();
+  const auto [enter, leave] = within_extent(surfaces, eye, direction, camera.range_m);
   const int steps = static_cast<int>(camera.range_m / step);
-  for (int k = 1; k < steps; ++k) {
+  for (int k = std::max(1, static_cast<int>(enter / step)); k < steps && k * step <= leave; ++k) {
     const double s = k * step;
     const Eigen::Vector2d p = eye.head<2>() + s * direction;
     const int next = surfaces.column_of(p.x(), p.y());

@@ -96,7 +96,7 @@ void SurfaceMap::put_obstacle(const Box& box) {
 }
 
 int SurfaceMap::column_of(double x, double y) const {
-  const double i = std::floor((x - x0_) / step_), j = std::floor((y - y0_) / step_);
+  const double inverse = 1.0 / step_, i = (x - x0_) * inverse, j = (y - y0_) * inverse;
   if (!(i >= 0.0 && i < nx_ && j >= 0.0 && j < ny_)) return -1;
   return static_cast<int>(j) * nx_ + static_cast<int>(i);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "planner/kept_field.h"
 #include "planner/planning_world.h"
 #include "planner/semantics/error_price.h"
 #include "tests/support/effort.h"
@@ -107,6 +108,46 @@ TEST(PricedWay, ForetellsMoreErrorAcrossALakeThanAroundIt) {
   const ForetoldError across = foretell_error({world.start, world.key.goal}, kSpeed, *world.field.cost().information);
   EXPECT_GT(across.at_goal, 1.5 * around->at_goal);
   EXPECT_GT(across.at_worst, 1.7 * around->at_worst);
+}
+
+/// A key that asks for a cube about the vehicle with this half side, with space above and below.
+GoalFieldKey with_body(double half) {
+  GoalFieldKey key = lake_at_20().key;
+  key.flight_box = Box(Vec3(-10, -25, -1), Vec3(80, 25, 3));
+  key.body = box_around(Vec3::Zero(), Vec3::Constant(half));
+  return key;
+}
+
+GoalFieldKey kept_for(double half, const std::vector<Box>& obstacles = {}) {
+  const KeptField kept = make_kept_field(with_body(half), lake_at_20().map, obstacles, lake_at_20().start);
+  EXPECT_TRUE(kept.field->path_from(lake_at_20().start));
+  return kept.key;
+}
+
+TEST(PricedWay, FieldServesWhileTheTubeChanges) {
+  const GoalFieldKey made = kept_for(0.23);
+  EXPECT_NEAR(made.body.max().x(), 0.3, 1e-9);
+  for (const double half : {0.01, 0.1, 0.2, 0.23, 0.299}) EXPECT_TRUE(serves(made, with_body(half))) << half;
+  EXPECT_FALSE(serves(made, with_body(0.31)));
+  EXPECT_FALSE(serves(kept_for(0.53), with_body(0.1))) << "0.6 m would close passages for nothing";
+  GoalFieldKey elsewhere = with_body(0.23);
+  elsewhere.goal.y() += 1.0;
+  EXPECT_FALSE(serves(made, elsewhere));
+}
+
+TEST(PricedWay, WithoutAPriceAFieldServesItsOwnBodyAlone) {
+  GoalFieldKey made = with_body(0.2), smaller = with_body(0.19);
+  made.speed = smaller.speed = 0.0;
+  EXPECT_TRUE(serves(made, made));
+  EXPECT_FALSE(serves(made, smaller));
+}
+
+TEST(PricedWay, GoesThroughAPassageThatTheRoundedBodyWouldClose) {
+  // A gap of 0.52 m in a wall: the vehicle needs 0.44 m, and 0.6 m if its sides are rounded up.
+  const std::vector<Box> wall{Box(Vec3(20, -30, -2), Vec3(21, -0.26, 5)), Box(Vec3(20, 0.26, -2), Vec3(21, 30, 5))};
+  const GoalFieldKey made = kept_for(0.22, wall);
+  EXPECT_TRUE(made == with_body(0.22));
+  EXPECT_FALSE(serves(made, with_body(0.23)));
 }
 
 /// The least J of all ways with two corners: brute force.

@@ -8,6 +8,7 @@
 
 #include "core/world/body.h"
 #include "planner/app/config_reader.h"
+#include "planner/kept_field.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 
@@ -111,7 +112,7 @@ std::shared_ptr<const GoalField> WorldRebuilder::field_of(const GoalFieldKey& ke
     if (known.key == key && known.map == map && known.start == start) return known.field;
   }
   if (fields_.size() == kFieldsKept) fields_.erase(fields_.begin());
-  auto field = std::make_shared<const GoalField>(make_goal_field(key, map, statics, start));
+  auto field = make_kept_field(key, map, statics, start).field;
   fields_.push_back({key, map, start, field});
   return field;
 }
