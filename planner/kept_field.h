@@ -24,8 +24,8 @@ struct KeptField {
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const std::vector<Box>& static_boxes, const Vec3& start);
 
-/// Whether the field of one key also serves another: an equal one, and with an error price (GoalFieldKey::speed > 0)
-/// one whose body is contained in the first one's, and smaller by at most 3 kBodyStep per side.
+/// Whether the field of one key also serves another. It serves an equal one. With an error price (speed > 0) it also
+/// serves each body that it contains and that is smaller by at most 3 kBodyStep per side.
 bool serves(const GoalFieldKey& made_for, const GoalFieldKey& wanted);
 
 }  // namespace tern
