@@ -5,6 +5,9 @@ figures.py [FOLDER]          every figure whose data is in the folder (this one)
 figures.py compare A.csv B.csv OUT.svg   two campaigns over the same seeds, measure by measure
 figures.py widths SUMMARY.json... OUT.svg  half-width by the time since a track was first seen, a panel per world
 figures.py map FOLDER OUT.svg              success of perception_only against the sensor (results.sh --sensors --out FOLDER)
+figures.py lake STRAIGHT AROUND OUT.svg    two flights of `lake` on an estimate: ways, errors, stated bounds. The folders
+                                           are those of `tern-export FLIGHT --csv FOLDER`. Seed 1, with
+                                           simulator.estimation=vio, STRAIGHT with semantics.enabled=false
 
 Needs python3-matplotlib; no flight does.
 """
@@ -284,6 +287,54 @@ def draw_widths(summaries, out):
     save(figure, out)
 
 
+BOUND = math.sqrt(11.345)  # 99 % of three degrees of freedom
+
+
+def column(table, start):
+    """Returns the column whose name begins like this, as numbers."""
+    name = next(name for name in table[0] if name.startswith(start))
+    return [float(row[name]) for row in table]
+
+
+def flown_on_estimate(folder):
+    """Returns true x, y, and error and bound (m) of the estimate, at every tenth ODOMETRY."""
+    truth, odometry = rows(pathlib.Path(folder) / "VEHICLE_TRUTH.csv"), rows(pathlib.Path(folder) / "ODOMETRY.csv")
+    true_times = column(truth, "at_us")
+    places = list(zip(*(column(truth, f"motion.position.{axis}") for axis in "xyz")))
+    times, state, yaw = column(odometry, "at_us"), column(odometry, "state"), column(odometry, "yaw_wo")
+    in_odometry = list(zip(*(column(odometry, f"p_ob.{axis}") for axis in "xyz")))
+    offsets = list(zip(*(column(odometry, f"p_wo.{axis}") for axis in "xyz")))
+    variances = list(zip(*(column(odometry, f"pose_covariance.{k}") for k in (0, 7, 14))))
+    flown, k = [], 0
+    for i in range(0, len(odometry), 10):
+        while k + 1 < len(truth) and abs(true_times[k + 1] - times[i]) <= abs(true_times[k] - times[i]):
+            k += 1
+        if state[i] not in (1, 2):
+            continue
+        c, s, (x, y, z), offset = math.cos(yaw[i]), math.sin(yaw[i]), in_odometry[i], offsets[i]
+        believed = (c * x - s * y + offset[0], s * x + c * y + offset[1], z + offset[2])
+        flown.append((places[k][0], places[k][1], math.dist(believed, places[k]), BOUND * math.sqrt(max(variances[i]))))
+    return list(zip(*flown))
+
+
+def draw_lake(straight, around, out):
+    figure, (above, below) = plt.subplots(2, 1, figsize=(7.2, 4.2), height_ratios=[1.1, 1], layout="constrained")
+    highest = 0.0
+    above.add_patch(Rectangle((15, -6), 45, 12, color="#bcd9f2"))
+    above.text(37, -4.5, "water without texture", ha="center", color="#4d7ea8")
+    for folder, name, colour in ((straight, "straight", "#d9413e"), (around, "Tern", "#1357a6")):
+        x, y, errors, bounds = flown_on_estimate(folder)
+        above.plot(x, y, color=colour, label=name)
+        below.plot(x, errors, color=colour, label=f"error, {name}")
+        below.plot(x, bounds, color=colour, linestyle="--", linewidth=1, label="its stated 99 % bound")
+        highest = max(highest, *bounds)
+    above.set(aspect="equal", xlim=(-3, 78), ylim=(-8, 11), ylabel="y, m")
+    above.legend(loc="upper right", ncols=2, frameon=False)
+    below.set(xlim=(-3, 78), ylim=(0, 1.3 * highest), xlabel="x, m", ylabel="m")
+    below.legend(loc="upper left", ncols=2, frameon=False)
+    save(figure, out)
+
+
 def main(words):
     if words[:1] == ["widths"]:
         return draw_widths(words[1:-1], words[-1])
@@ -291,6 +342,8 @@ def main(words):
         return draw_comparison(*words[1:])
     if words[:1] == ["map"]:
         return draw_map(*words[1:])
+    if words[:1] == ["lake"]:
+        return draw_lake(*words[1:])
     folder = pathlib.Path(words[0]) if words else pathlib.Path(__file__).parent
     for data, draw in (("paper_6_1.json", draw_search), ("paper_6_2_flights.csv", draw_exposure),
                        ("paper_6_2_sweep.csv", draw_sweep)):
