@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "predictor/faces/open_ends.h"
+
 namespace tern {
 namespace {
 
@@ -11,6 +13,8 @@ constexpr std::array<double, 2> kOutwards{-1.0, 1.0};
 // A reach is never known better than this, m: the boxes of real things are not quite axis-aligned.
 constexpr double kLeastSigma = 0.005;
 constexpr int kMostMeasurements = 100;
+// A place is known to the edge of a box no better than this, m.
+constexpr double kEndError = 0.1;
 
 struct AxisSight {
   std::array<double, 2> bounds, sigmas;
@@ -118,6 +122,7 @@ void FaceBox::learn_axis(Axis& axis, double anchor, const std::array<double, 2>&
     const double seen = kOutwards[side] * (bounds[side] - anchor);
     if (!is_end(sights[side])) {
       face.reach = std::max(face.reach, seen);
+      if (face.limit < face.reach) face.limit = std::numeric_limits<double>::infinity();  // it was wrong
       continue;
     }
     // The first face of an axis defines where the anchor is; the second one lies at a measured distance from it.
@@ -172,6 +177,64 @@ Box FaceBox::completed(const Vec3& anchor, double sigmas) const {
     upper[axis] = std::max(lower[axis], anchor[axis] + faces[1].reach);
   }
   return {lower, upper};
+}
+
+KnownSizes FaceBox::known_sizes() const {
+  KnownSizes known;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Axis& faces = axes_[idx(axis)];
+    known.sizes[axis] = faces[0].reach + faces[1].reach;
+    known.is_whole[idx(axis)] = faces[0].measured > 0 && faces[1].measured > 0;
+  }
+  return known;
+}
+
+std::optional<Vec3> FaceBox::measured_sizes() const {
+  for (const Axis& faces : axes_) {
+    if (std::min(faces[0].measured, faces[1].measured) < kMeasuredToRecord) return std::nullopt;
+  }
+  return known_sizes().sizes;
+}
+
+Box FaceBox::whole(const Vec3& anchor, double sigmas, const SizeRecord& record) const {
+  const Box least = completed(anchor, sigmas);
+  const KnownSizes known = known_sizes();
+  Vec3 lower = least.min(), upper = least.max();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (known.is_whole[idx(axis)]) continue;
+    const std::optional<double> longest = record.longest(axis, known);
+    const Axis& faces = axes_[idx(axis)];
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (faces[side].measured > 0) continue;
+      const double farthest =
+          longest ? *longest + kSizeTolerance - faces[1 - side].reach : faces[side].reach + kUnseenRest;
+      const double reach = std::max(faces[side].reach, std::min(farthest, faces[side].limit));
+      if (side == kLowerFace) {
+        lower[axis] = anchor[axis] - reach;
+      } else {
+        upper[axis] = anchor[axis] + reach;
+      }
+    }
+  }
+  return {lower, lower.cwiseMax(upper)};
+}
+
+void FaceBox::limit_hidden_ends(const SensorView& view, const Vec3& anchor, double error) {
+  Box seen;
+  for (int axis = 0; axis < 3; ++axis) {
+    seen.min()[axis] = anchor[axis] - axes_[idx(axis)][kLowerFace].reach;
+    seen.max()[axis] = anchor[axis] + axes_[idx(axis)][kUpperFace].reach;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      FaceReach& face = axes_[idx(axis)][side];
+      if (face.measured > 0) continue;
+      const double farthest = std::min(kFarthestEnd, face.limit - face.reach);
+      const int outwards = side == kLowerFace ? -1 : 1;
+      const double beyond = seen_empty_beyond(view, seen, axis, outwards, farthest, kEndError + 2.0 * error);
+      if (beyond < farthest) face.limit = face.reach + beyond;
+    }
+  }
 }
 
 }  // namespace tern

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "core/base/types.h"
 #include "core/world/sighting.h"
+#include "predictor/faces/size_record.h"
 
 namespace tern {
 
-/// Two measurements of one length agree if they differ by at most this plus three standard deviations, m: a pixel at
-/// 10 m.
-inline constexpr double kSizeTolerance = 0.15;
 /// A known size follows measured ones by at least this share of the difference. If a measured size is larger and
 /// disagrees, it is taken at once.
 inline constexpr double kSizeFollows = 0.05;
@@ -25,11 +24,18 @@ inline constexpr int kSliverPoints = 16;
 /// Returns the sighting. The ends of a sliver are marked as hidden.
 Sighting without_false_ends(Sighting sighting);
 
+/// Both ends of all axes must have been measured this often before the sizes are recorded.
+inline constexpr int kMeasuredToRecord = 3;
+/// Where no similar obstacle was seen whole, a hidden end lies at most this far beyond what was seen, m.
+inline constexpr double kUnseenRest = 4.0;
+
 /// One face of a box: its distance outwards from the anchor.
 struct FaceReach {
   double reach = 0.0;  ///< m; before the first measurement: as far as the obstacle was seen
   double sigma = 0.0;  ///< of a measured reach, m
-  int measured = 0;    ///< measurements; 0: the obstacle ends somewhere beyond `reach`
+  int measured = 0;    ///< measurements; 0: the obstacle ends somewhere beyond `reach`, a hidden end
+  /// Where space was seen to be empty: a hidden end lies nearer, m.
+  double limit = std::numeric_limits<double>::infinity();
 };
 inline constexpr std::size_t kLowerFace = 0, kUpperFace = 1;
 
@@ -46,8 +52,9 @@ struct AnchorMeasurement {
 /// - A measured end of a face with a known reach measures the anchor: bound − reach for the upper face.
 /// - A reach changes only by measured *sizes*, where both ends of an axis are seen. So the extent is free of errors of
 ///   the filter, and the velocity is free of changes of the visible part.
-/// - A face that was never measured lies at least as far out as the obstacle was seen. completed() puts it where the
-///   other axes suggest.
+/// - A face that was never measured is a hidden end. It lies at least as far out as the obstacle was seen, and nearer
+///   than space that was seen to be empty. completed() puts it at the least place that the other axes suggest, whole()
+///   at the farthest one that is likely.
 class FaceBox {
  public:
   FaceBox() = default;
@@ -77,12 +84,21 @@ class FaceBox {
   /// other two that is measured at both ends, or else that was seen.
   /// @param sigmas  known faces lie farther out by this many standard deviations of their reach
   [[nodiscard]] Box completed(const Vec3& anchor, double sigmas = 0.0) const;
+  /// Returns the box about an anchor that contains the whole obstacle. A hidden end lies as far out as the longest
+  /// similar obstacle allows, or kUnseenRest beyond what was seen, but nearer than empty space.
+  [[nodiscard]] Box whole(const Vec3& anchor, double sigmas, const SizeRecord& record) const;
+  /// Returns the sizes if all ends were measured kMeasuredToRecord times.
+  [[nodiscard]] std::optional<Vec3> measured_sizes() const;
+  /// Limits hidden ends by the space that a view saw to be empty (open_ends.h).
+  /// @param error  standard deviation of the box's place in the view, m
+  void limit_hidden_ends(const SensorView& view, const Vec3& anchor, double error);
 
  private:
   using Axis = std::array<FaceReach, 2>;
   void learn_axis(Axis& axis, double anchor, const std::array<double, 2>& bounds, const std::array<double, 2>& sigmas,
                   const std::array<BoundSight, 2>& sights) const;
   [[nodiscard]] double least_size(int axis) const;
+  [[nodiscard]] KnownSizes known_sizes() const;
 
   std::array<Axis, 3> axes_;
   std::array<bool, 3> has_depth_{};  // an axis of which more than the near face was seen

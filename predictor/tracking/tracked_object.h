@@ -39,6 +39,7 @@ struct TrackedObject {
   int misses = 0;                 ///< of a track by sightings: looked for and not found, less those found since, ≥ 0
   std::array<int, 3> rejected{};  ///< of a track by sightings, per axis: measurements in a row that were outliers
   bool is_located = true;         ///< the last detection had a position on all axes
+  std::array<UTime, 3> located_at{};  ///< of a track by sightings, per axis: the last detection with a position there
 };
 
 }  // namespace tern

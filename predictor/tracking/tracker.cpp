@@ -35,6 +35,13 @@ void restart(TrackedObject& object, const Detection& detection, const Observatio
   object.detections = 1;
 }
 
+// True if a track that rested is detected elsewhere. Faces of one obstacle may be taken for each other, so a track by
+// sightings has to go farther.
+bool has_left(const TrackedObject& object, const std::array<AxisFilter, 3>& stood, const Detection& detection) {
+  if (fit_of(stood, detection).distance2 <= kJumpGate) return false;
+  return !object.is_sighted || (detection.position - position(stood)).norm() > kSightedStart;
+}
+
 std::pair<UTime, std::int32_t> key(const ObservationSet& set) { return {set.at, set.sensor_id}; }
 
 }  // namespace
@@ -153,7 +160,7 @@ void Tracker::update_track(TrackedObject& object, const Detection& detection, co
   } else if (rested) {
     rest.rested_s += (from.at - seen).seconds();
     object.stood.reset();
-  } else if (object.stood && fit_of(*object.stood, detection).distance2 > kJumpGate) {
+  } else if (object.stood && has_left(object, *object.stood, detection)) {
     // A detection at the old place means that the obstacle still rests there, and that this is another one.
     if (!is_seen_at(*object.stood, from)) ++rest.starts;
     object.stood.reset();
@@ -223,7 +230,13 @@ bool Tracker::may_be_another(const TrackedObject& object, UTime at) const {
 
 bool Tracker::is_stationary(const TrackedObject& object) const {
   if (object.last_seen - object.resting_since < config_.resting_after) return false;
-  if (object.is_sighted && object.faces.positions() < kAxesToRest) return false;
+  if (object.is_sighted) {
+    const bool is_sound = object.rejected == std::array<int, 3>{};
+    return is_sound && object.faces.positions() >= kAxesToRest &&
+           std::ranges::all_of(object.resting, [](const AxisFilter& axis) {
+             return std::abs(axis.v) + 2.0 * std::sqrt(axis.vv) <= kKnownRest;
+           });
+  }
   return std::ranges::all_of(object.resting, [](const AxisFilter& axis) {
     return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));
   });

@@ -77,6 +77,12 @@ inline constexpr double kFaceOutlier = 0.15, kFaceOutlierSigmas = 3.0;
 inline constexpr int kMostRejected = 8;
 /// A sighting in the box of a track that was seen in the same frame is a piece of it. The box is grown by this, m.
 inline constexpr double kPieceMargin = 0.2;
+/// A track by sightings is at rest only if its speed is known: on each axis |v| + 2σ is at most this, m/s.
+inline constexpr double kKnownRest = 0.12;
+/// It has started once it is this far from its place of rest, m.
+inline constexpr double kSightedStart = 1.0;
+/// Its α allows for the speed that its moving filter sees, for this long ahead, s. By then a motion shows.
+inline constexpr double kDriftTime = 1.0;
 /// A track by sightings is at rest only if it has positions along this many axes. Along another axis a track that rests
 /// is taken to rest as well.
 inline constexpr int kAxesToRest = 2;
@@ -191,6 +197,7 @@ class Tracker {
     std::vector<TrackedObject> objects, sighted;
     RestRecord rest;
     ExistenceRecord existence;
+    SizeRecord sizes;
   };
   struct Step {
     ObservationSet observations;  // with sightings: their time and sensor alone
@@ -208,6 +215,8 @@ class Tracker {
   [[nodiscard]] std::vector<PredictedFaces> predicted_faces(const std::vector<TrackedObject>& objects) const;
   /// Counts a miss of a track that was not found, if it was looked for. @param found  boxes of the tracks that were
   void look_for(TrackedObject& object, const SensorView& view, const std::vector<Box>& found) const;
+  /// Limits a track's hidden ends by what a view saw to be empty.
+  void limit_hidden_ends(TrackedObject& object, const SensorView& view) const;
   /// Updates a track with its sighting. @param common  variance of the frame at its place, m²
   void update_faces(TrackedObject& object, const Sighting& sighting, double common, const ObservationSet& from,
                     RestRecord& rest) const;

@@ -8,6 +8,29 @@
 #include "predictor/tracking/tracker.h"
 
 namespace tern {
+namespace {
+
+// How long before its last detection a track had its last position, s per axis. Out of sight the longest counts for
+// all axes: what was seen last may have been another obstacle.
+Vec3 unlocated_for(const TrackedObject& object, bool is_unseen) {
+  if (!object.is_sighted) return Vec3::Zero();
+  Vec3 before;
+  for (int axis = 0; axis < 3; ++axis) before[axis] = (object.last_seen - object.located_at[idx(axis)]).seconds();
+  return is_unseen ? Vec3::Constant(before.maxCoeff()) : before;
+}
+
+// The half-width at ahead_s after the last detection, by the time since the last position on each axis.
+Vec3 half_width(const MixturePrediction& mixture, const PerBand<double>& margins, double ahead_s,
+                const Vec3& unlocated_s) {
+  Vec3 half = interval_half_width(mixture.deviation, margins, ahead_s);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (unlocated_s[axis] > 0.0)
+      half[axis] = interval_half_width(mixture.deviation, margins, ahead_s + unlocated_s[axis])[axis];
+  }
+  return half;
+}
+
+}  // namespace
 
 bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& existence) const {
   if (object.confirmed || object.detections > 1) return true;
@@ -29,7 +52,8 @@ std::pair<Waypoint, Vec3> Tracker::resting_at(const TrackedObject& object, const
   const double to_s = (from - state.at).seconds() + ahead_s;
   const double unseen_s = (from - object.last_seen).seconds() + ahead_s;
   Waypoint waypoint;
-  Vec3 sigma, unnoticed;
+  Vec3 sigma, unnoticed, drift = Vec3::Zero();
+  const Vec3 velocity = object.moving.lead().velocity();
   for (int axis = 0; axis < 3; ++axis) {
     AxisFilter at = object.resting[static_cast<std::size_t>(axis)];
     unnoticed[axis] = std::abs(object.position[axis] - at.x);
@@ -37,14 +61,16 @@ std::pair<Waypoint, Vec3> Tracker::resting_at(const TrackedObject& object, const
     waypoint.centre[axis] = at.x;
     waypoint.velocity[axis] = at.v;
     sigma[axis] = std::sqrt(at.xx);
+    if (object.is_sighted)
+      drift[axis] = unnoticed[axis] + std::abs(velocity[axis] - at.v) * std::min(unseen_s, kDriftTime);
   }
   for (std::size_t level = 0; level < waypoint.half.size(); ++level) {
     const double missed = 1.0 - confidence_at(config_.prediction.confidence, static_cast<int>(level));
     const double moved_s = std::max(0.0, unseen_s - trusted_rest_s(state.rest, kStartShare * missed));
-    waypoint.half[level] = rest_quantiles_[level] * sigma;
+    waypoint.half[level] = rest_quantiles_[level] * sigma + drift;
     if (moved_s > 0.0) waypoint.half[level] += unnoticed + Vec3::Constant(top_speed() * moved_s);
   }
-  return {waypoint, rest_quantiles_.front() * sigma};
+  return {waypoint, rest_quantiles_.front() * sigma + drift};
 }
 
 Tracker::Forecast Tracker::at_rest(const TrackedObject& object, const State& state, UTime from) const {
@@ -78,6 +104,7 @@ Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs&
   const PerLevel& margins = is_sure ? scorer_.calibration().margins(assessment.of) : inputs.unsure_margins;
   const double since_s = (inputs.from - object.last_seen).seconds();
   const bool is_unseen = since_s > kUnseenAfter;
+  const Vec3 unlocated_s = unlocated_for(object, is_unseen);
   Forecast forecast{std::vector<Waypoint>(ends_.size()), {}};
   for (std::size_t k = 0; k < ends_.size(); ++k) {
     Waypoint& waypoint = forecast.waypoints[k];
@@ -93,7 +120,7 @@ Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs&
     waypoint.velocity = mixture.velocity;
     if (k == bound_at_) forecast.bound.model = model_sigmas_ * mixture.deviation.maxCoeff();
     for (std::size_t level = 0; level < margins.size(); ++level) {
-      waypoint.half[level] = interval_half_width(mixture.deviation, margins[is_unseen ? 0 : level], ahead_s);
+      waypoint.half[level] = half_width(mixture, margins[is_unseen ? 0 : level], ahead_s, unlocated_s);
     }
   }
   TrackBound& bound = forecast.bound;
@@ -130,8 +157,9 @@ void Tracker::predict(const TrackedObject& object, PredictionInputs& inputs, std
   auto [waypoints, bound] = is_resting ? at_rest(object, newest, inputs.from) : moving(object, inputs);
   Track track;
   if (object.is_sighted) {
-    const Box box = object.faces.completed(Vec3::Zero(), kReachSigmas);
-    if (is_handed_over(object, box, inputs.from, waypoints.front())) return;
+    const Box least = object.faces.completed(Vec3::Zero(), kReachSigmas);
+    if (is_handed_over(object, least, inputs.from, waypoints.front())) return;
+    const Box box = object.faces.whole(Vec3::Zero(), kReachSigmas, newest.sizes);
     for (Waypoint& waypoint : waypoints) waypoint.centre += box.center();
     track.half_extents = 0.5 * box.sizes();
   } else {

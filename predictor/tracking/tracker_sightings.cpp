@@ -11,6 +11,7 @@
 
 #include "predictor/faces/frame_error.h"
 #include "predictor/faces/looked_for.h"
+#include "predictor/faces/open_ends.h"
 #include "predictor/faces/sighting_matching.h"
 #include "predictor/tracking/resting_filters.h"
 #include "predictor/tracking/track_bound.h"
@@ -97,7 +98,8 @@ TrackedObject Tracker::start_faces(const Sighting& sighting, double common, cons
   object.is_sighted = true;
   object.faces = faces;
   object.half_extents = 0.5 * faces.completed(anchor).sizes();
-  for (int axis = 0; axis < 3; ++axis) object.is_located = object.is_located && faces.has_position(axis);
+  object.is_located = faces.positions() == 3;
+  object.located_at.fill(from.at);
   return object;
 }
 
@@ -115,6 +117,7 @@ void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, doub
   for (int axis = 0; axis < 3; ++axis) {
     if (measured.has[idx(axis)]) {
       detection.position[axis] = measured.position[axis];
+      object.located_at[idx(axis)] = from.at;
       continue;
     }
     object.is_located = false;
@@ -126,6 +129,9 @@ void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, doub
     if (object.born == from.at && !measured.has[idx(axis)]) forget(axis);  // it was restarted, at no place
   }
   const Vec3 now = object.moving.lead().position();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!object.faces.has_position(axis)) object.faces.relearn(axis, now, sighting);
+  }
   object.faces.learn(now, sighting, is_sound);
   object.half_extents = 0.5 * object.faces.completed(now).sizes();
 }
@@ -172,11 +178,20 @@ void Tracker::look_for(TrackedObject& object, const SensorView& view, const std:
   object.misses += view.kind == ViewKind::Spherical ? kMissOfLidar : 1;
 }
 
+void Tracker::limit_hidden_ends(TrackedObject& object, const SensorView& view) const {
+  const Vec3 at = anchor(object);
+  const Vec3 from_sensor = at - view.sensor_position;
+  const double beyond = from_sensor.norm() - view.range_m;
+  if (beyond > kFarthestEnd) return;
+  const double place = is_stationary(object) ? 0.0 : object.moving.lead().variance().minCoeff();
+  object.faces.limit_hidden_ends(view, at, std::sqrt(frame_variance(kFrameOffset, from_sensor, Vec3::Zero()) + place));
+}
+
 void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicle) const {
   const ObservationSet from = without_detections(frame);
   const Vec3 sensor_velocity = note_frame(state, frame);
   const auto variance_at = [&](const Vec3& p, const Vec3& velocity) {
-    return frame_variance(p - frame.view.sensor_position, velocity - sensor_velocity);
+    return frame_variance(kFrameJitter, p - frame.view.sensor_position, velocity - sensor_velocity);
   };
   predict_to(state, frame.at);
   const std::vector<int> sighting_of = match_sightings(predicted_faces(state.sighted), frame.sightings);
@@ -193,6 +208,7 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     object.misses = std::max(0, object.misses - 1);
     update_faces(object, sighting, variance_at(middle(sighting), object.moving.lead().velocity()), from, state.rest);
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
+    if (const auto sizes = object.faces.measured_sizes(); sizes && object.confirmed) state.sizes.add(object.id, *sizes);
     found.push_back(grown(object.faces.completed(anchor(object)), Vec3::Constant(kPieceMargin)));
   }
   for (std::size_t o = 0; o < state.sighted.size(); ++o) {
@@ -209,6 +225,7 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     const double common = variance_at(middle(sighting), Vec3::Zero());
     state.sighted.push_back(start_faces(sighting, common, from, state.next_id++));
   }
+  for (TrackedObject& object : state.sighted) limit_hidden_ends(object, frame.view);
   constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
   state.views.back().left_out =
       frame.left_out + bound_tracks(state.sighted, kFirstOwnTrackId, kLast, kMaxSightedTracks, vehicle, frame.at);

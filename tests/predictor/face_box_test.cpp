@@ -119,6 +119,39 @@ TEST(FaceBox, TheUnseenDepthIsAsLongAsTheShorterKnownSide) {
   EXPECT_NEAR(box.max().x(), 4.8, 1e-9);
 }
 
+// The front of a pillar whose upper end is hidden.
+FaceBox front_of_pillar(const Box& pillar, Vec3& anchor) {
+  std::array<BoundSight, 6> bounds = all(BoundSight::Whole);
+  bounds[0] = BoundSight::Face;
+  bounds[5] = BoundSight::Occluded;
+  Sighting part = sighting_of(pillar, bounds);
+  part.upper.z() = pillar.min().z() + 1.0;
+  return {part, anchor};
+}
+
+TEST(FaceBox, AHiddenEndIsAsFarOutAsSimilarObstaclesAreLong) {
+  const Box pillar(Vec3(4, -0.2, 0), Vec3(4.4, 0.2, 4));
+  Vec3 anchor;
+  const FaceBox faces = front_of_pillar(pillar, anchor);
+  EXPECT_NEAR(faces.completed(anchor).max().z(), 1.0, 1e-9) << "the least";
+  SizeRecord record;
+  EXPECT_NEAR(faces.whole(anchor, 0.0, record).max().z(), 1.0 + kUnseenRest, 1e-9) << "nothing is known";
+  for (int k = 0; k < SizeRecord::kFewestSimilar; ++k) record.add(k, pillar.sizes());
+  EXPECT_TRUE(faces.whole(anchor, 0.0, record).contains(pillar));
+  EXPECT_NEAR(faces.whole(anchor, 0.0, record).max().z(), 4.0 + kSizeTolerance, 1e-9);
+}
+
+TEST(FaceBox, AHiddenEndIsNearerThanTheVehicle) {
+  Vec3 anchor;
+  FaceBox faces = front_of_pillar(Box(Vec3(4, -0.2, 0), Vec3(4.4, 0.2, 4)), anchor);
+  SensorView above;  // it saw nothing, but it is there
+  above.sensor_position = Vec3(4.2, 0, 3);
+  faces.limit_hidden_ends(above, anchor, 0.0);
+  const double end = faces.whole(anchor, 0.0, {}).max().z();
+  EXPECT_GE(end, 1.0);
+  EXPECT_LT(end, 3.0);
+}
+
 TEST(FaceBox, GrowsAtOnceAndShrinksSlowly) {
   Vec3 anchor;
   const Box small(Vec3(4, -0.5, 0), Vec3(5, 0.5, 1)), large(Vec3(4, -0.5, 0), Vec3(5, 1.5, 1));

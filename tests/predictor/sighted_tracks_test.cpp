@@ -152,6 +152,63 @@ TEST(SightedTracks, WhatRestsIsRememberedBehindTheCamera) {
   }));
 }
 
+TEST(SightedTracks, ABeamWhoseEndIsHiddenIsPublishedWhole) {
+  const Box beam(Vec3(6, -2, 1.8), Vec3(6.4, 1.2, 2.2)), pillar(Vec3(4, 0.4, 0), Vec3(4.4, 1.0, 4));
+  const Boxes scene = [&](double) { return std::vector{beam, pillar}; };
+  Tracker tracker{TrackerConfig{}};
+  RenderingSensor camera = RenderingSensor::camera();
+  watch(tracker, camera, 0.0, 2.0, scene);
+  const UTime now = tracker.newest();
+  const std::vector<Track> tracks = tracker.predict(now);
+  const Track* track = track_at(tracks, Vec3(6.0, -1.8, 2.0), now);
+  ASSERT_NE(track, nullptr);
+  EXPECT_TRUE(covers(*track, beam, now + Duration{500'000}));
+  EXPECT_FALSE(covers(*track, Box(beam.min(), beam.max() + Vec3(0, 1.5, 0)), now)) << "beyond the pillar it is empty";
+}
+
+TEST(SightedTracks, ASlowMoverIsNotAtRest) {
+  Tracker tracker{TrackerConfig{}};
+  RenderingSensor camera = RenderingSensor::camera();
+  const auto cube = [](double t) { return box_around(Vec3(7, -0.5 + 0.25 * t, 2), Vec3::Constant(0.4)); };
+  for (int k = 0; k < 60; ++k) {
+    watch(tracker, camera, k / kRate, (k + 1) / kRate, [&](double t) { return std::vector{cube(t)}; });
+    ASSERT_EQ(tracker.sighted().size(), 1u);
+    ASSERT_FALSE(tracker.is_stationary(tracker.sighted().front())) << "after " << k / kRate << " s";
+  }
+}
+
+// What is seen of a mover along an axis without an end says nothing about its place there.
+TEST(SightedTracks, AnAxisWithoutEndsIsPredictedAsLongUnseen) {
+  const auto frame = [](double t, bool has_ends) {
+    SightingSet set;
+    set.at = at_seconds(t);
+    set.view.sensor_position = kEye;
+    Sighting cube;
+    const Vec3 centre(6, t, 2);
+    cube.lower = centre - Vec3::Constant(0.4);
+    cube.upper = centre + Vec3::Constant(0.4);
+    cube.lower_sigma = cube.upper_sigma = Vec3::Constant(0.01);
+    cube.bounds.fill(BoundSight::Whole);
+    cube.points = 100;
+    if (!has_ends) cube.bounds[2] = cube.bounds[3] = BoundSight::Occluded;
+    set.sightings = {cube};
+    return set;
+  };
+  Tracker seen_in_part{TrackerConfig{}}, unseen{TrackerConfig{}};
+  for (int k = 0; k < 75; ++k) {
+    const double t = k / kRate;
+    seen_in_part.update(frame(t, k < 60), kEye);
+    if (k < 60) unseen.update(frame(t, true), kEye);
+  }
+  const UTime now = seen_in_part.newest();
+  const std::vector<Track> part = seen_in_part.predict(now), none = unseen.predict(now);
+  ASSERT_EQ(part.size(), 1u);
+  ASSERT_EQ(none.size(), 1u);
+  const std::size_t later = part[0].motion.locate(now + Duration{500'000}).index;
+  EXPECT_NEAR(part[0].alpha[later].y(), none[0].alpha[later].y(), 0.15 * none[0].alpha[later].y());
+  EXPECT_LT(part[0].alpha[later].x(), 0.8 * none[0].alpha[later].x()) << "its place along x is seen";
+}
+
 TEST(SightedTracks, WhatRestedMayBeginToMove) {
   const auto box = [](double t) { return box_around(Vec3(5, std::max(0.0, 1.5 * (t - 2.0)), 2), Vec3::Constant(0.4)); };
   Tracker tracker{TrackerConfig{}};
