@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "perception/view.h"
 
@@ -54,7 +55,9 @@ double seen_empty_beyond(const SensorView& view, const Box& box, int axis, int s
   const Section section = section_of(box, axis, error);
   double empty_from = most;
   bool was_empty = false;
-  for (double beyond = kEndStep; beyond < most + kEndStep; beyond += kEndStep) {
+  const int steps = static_cast<int>(std::ceil(most / kEndStep));
+  for (int step = 1; step <= steps; ++step) {
+    const double beyond = step * kEndStep;
     Vec3 middle = section.middle;
     middle[axis] = side < 0 ? box.min()[axis] - beyond : box.max()[axis] + beyond;
     const bool is_empty = is_seen_through(view, section, middle, axis);

@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <set>
 #include <vector>
 
 #include "messages/codec.h"
+#include "perception/view.h"
 #include "runtime/virtual_runner.h"
 #include "tests/perception/scene.h"
 #include "tests/support/voxel_maps.h"
@@ -104,6 +107,36 @@ TEST_F(DetectorNodeTest, ADepthThatIsAllZerosIsNamed) {
   send_image(0.0);
   run(0.1);
   EXPECT_EQ(node_->health().waiting_for, "");
+}
+
+TEST_F(DetectorNodeTest, ADepthThatIsAllNaNIsNamed) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  CloudScan scan;
+  scan.at = runner_.now();
+  scan.sensor_id = 4;
+  scan.sensor_position = Vec3(0, 0, 1);
+  scan.points.assign(500, {Eigen::Vector3f::Constant(kNaN), 0});
+  runner_.observer().publish(channels::kPointCloud, scan);
+  run(0.1);
+  EXPECT_TRUE(frames_.empty());
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 4"));
+  send_image(0.0);
+  run(0.1);
+  EXPECT_EQ(frames_.size(), 1u) << "another sensor goes on";
+}
+
+// The lowest rows show the vehicle's own landing gear, 0.1 m away: that is no obstacle, and hides what is behind it.
+TEST_F(DetectorNodeTest, ASensorThatCoversItselfSeesNeitherAnObstacleNorFreeSpaceThere) {
+  scene_.render(looking(Vec3(0, 0, 1), 0.0), {kBox}, 0.0);
+  auto parts = support::depth_images(scene_.picture, 90);
+  std::ranges::fill(parts[1].depths, std::int16_t{100});
+  send(parts);
+  run(0.1);
+  ASSERT_EQ(frames_.size(), 1u);
+  ASSERT_EQ(frames_[0].sightings.size(), 1u);
+  EXPECT_NEAR(frames_[0].sightings[0].lower.x(), 4.0, 0.05);
+  EXPECT_EQ(looked_at(frames_[0].view, Vec3(2.0, 0.0, 1.3)), Looked::Through);
+  EXPECT_EQ(looked_at(frames_[0].view, Vec3(2.0, 0.0, 0.3)), Looked::OutOfView);
 }
 
 TEST_F(DetectorNodeTest, ACameraThatFreezesInFlightIsNamedAndNotUsed) {

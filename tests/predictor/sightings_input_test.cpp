@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -91,6 +93,36 @@ TEST_F(SightingsInput, ADepthThatIsAllZerosCostsNoTrack) {
     next_frame();
   }
   EXPECT_TRUE(knows_the_cube());
+}
+
+TEST_F(SightingsInput, ABoundThatIsNaNIsRefusedAndCostsNoTrack) {
+  watch(camera_, 1.0);
+  SightingSet broken = seen(camera_);
+  ASSERT_FALSE(broken.sightings.empty());
+  broken.sightings.front().lower.x() = std::numeric_limits<double>::quiet_NaN();
+  send(broken);
+  next_frame();
+  const auto& rejected = bus_->counters().at("OBSTACLE_SIGHTINGS").rejected;
+  EXPECT_EQ(std::accumulate(std::begin(rejected), std::end(rejected), std::int64_t{0}), 1);
+  EXPECT_TRUE(knows_the_cube());
+}
+
+// The sensor sees a part of the vehicle that carries it, in each frame. The cube is tracked as well.
+TEST_F(SightingsInput, ASensorThatCoversItselfCostsNoOtherTrack) {
+  for (int k = 0; k < 30; ++k) {
+    SightingSet frame = seen(camera_);
+    Sighting own;
+    own.lower = kEye + Vec3(0.25, -0.1, -0.3);
+    own.upper = kEye + Vec3(0.25, 0.1, -0.2);
+    own.lower_sigma = own.upper_sigma = Vec3::Constant(0.01);
+    own.bounds.fill(BoundSight::Whole);
+    own.points = 200;
+    frame.sightings.push_back(own);
+    send(frame);
+    next_frame();
+  }
+  EXPECT_TRUE(knows_the_cube());
+  EXPECT_EQ(last_.tracks.size(), 2u);
 }
 
 TEST_F(SightingsInput, AViewWithoutDepthsCostsNoTrack) {
