@@ -15,7 +15,7 @@ mkdir -p "$work"
 export TERN_SYSROOT=$work/sysroot
 
 if [[ ! -e $TERN_SYSROOT/.made ]]; then
-  libraries=$(sed -n '/^# Libraries/,/^# Tests/s/^\(lib[a-z0-9-]*-dev\|coinor-[a-z-]*\|nlohmann-json3-dev\).*/\1/p' "$root/launch_scripts/packages.txt")
+  libraries=$(sed -n '/^# Libraries/,/^# Tests/s/^\(lib[a-z0-9.-]*-dev\|coinor-[a-z-]*\|nlohmann-json3-dev\).*/\1/p' "$root/launch_scripts/packages.txt")
   mmdebstrap --architectures=arm64 --variant=extract --include="g++ ${libraries//$'\n'/ }" "$release" "$TERN_SYSROOT"
   # Absolute links lead out of the folder.
   find "$TERN_SYSROOT/usr/lib" -type l -lname '/*' | while read -r link; do
