@@ -28,7 +28,7 @@ namespace tern {
 
 /// The role of a process in a flight. The numbers are on the wire (trailer.h).
 enum class Role : std::uint8_t {
-  Vehicle = 1,  ///< tern-simulator; on an aircraft the sensors and the autopilot bridge
+  Vehicle = 1,  ///< tern-simulator, or sensors and bridges of a vehicle; tern-detector, tern-estimator
   Predictor = 2,
   Planner = 3,
   Mapper = 4,

@@ -43,13 +43,13 @@ inline constexpr const char* kLcmType<VehicleStatus> = "vehicle_status_t";
 /// Inconsistent: two detections have the same track id.
 template <>
 inline constexpr const char* kLcmType<ObservationSet> = "observation_set_t";
-/// Inconsistent: the quaternion has not the length 1; the depths are not rows times columns. Also: the field of view of
-/// a camera reaches to a right angle; a lower bound is above its upper one.
+/// Inconsistent: the length of the quaternion is not 1; the number of depths is not rows × columns. Also: the field of
+/// view of a camera reaches to a right angle; a lower bound is above its upper one.
 template <>
 inline constexpr const char* kLcmType<SightingSet> = "sighting_set_t";
 template <>
 inline constexpr const char* kLcmType<CloudScan> = "point_cloud_t";
-/// Inconsistent: the quaternion has not the length 1; the number of depths is no multiple of the width.
+/// Inconsistent: the length of the quaternion is not 1; the number of depths is not a multiple of the width.
 template <>
 inline constexpr const char* kLcmType<DepthImage> = "depth_image_t";
 /// Inconsistent: the tracks' piece counts do not sum to the number of pieces. Also: two tracks have the same id; a

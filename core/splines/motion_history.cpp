@@ -25,8 +25,8 @@ void MotionHistory::append(const CubicPiece& piece) {
 
 void MotionHistory::append(const PiecewiseCubic& motion) {
   if (motion.start != end_) {
-    throw std::invalid_argument("a motion from " + std::to_string(motion.start.us) + " us, not from " +
-                                std::to_string(end_.us));
+    throw std::invalid_argument("a motion starts at " + std::to_string(motion.start.us) +
+                                " us, and the history ends at " + std::to_string(end_.us) + " us");
   }
   for (const CubicPiece& piece : motion.pieces) append(piece);
 }

@@ -29,7 +29,7 @@ struct FlightResult {
   double flight_time_s = 0.0;  ///< world time at arrival, else at the end
   double first_entry_s = 0.0;  ///< world time of the first entry into the 0.2 m ball about the goal
   double path_length_m = 0.0;
-  double mean_speed_mps = 0.0;  ///< straight distance from start to goal / flight time
+  double mean_speed_mps = 0.0;  ///< straight distance from start to goal / flight time; NaN if the goal changed
   double top_speed_mps = 0.0;
   double min_clearance_m = 0.0;         ///< from obstacles, in continuous time; negative if the bodies overlap
   double min_map_clearance_m = 0.0;     ///< the same from the map's occupied voxels

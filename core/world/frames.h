@@ -1,7 +1,7 @@
 // The frames of a vehicle that estimates its own pose, as types: mixing them does not compile.
 // The frame W is the world; goals, maps, regions, declared motions, tags and GNSS are given there. The frame O is the
-// odometry frame of one flight, in which the estimator keeps the vehicle's motion free of steps. Both have z up, so the
-// transform T_WO from O to W has four degrees of freedom: a position, and a yaw.
+// odometry frame of one flight. By default a correction moves the vehicle in O by at most 1 cm. A larger one
+// changes the transform T_WO from O to W: a position and a yaw, since both frames have z up.
 #pragma once
 
 #include <cmath>

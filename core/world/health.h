@@ -39,8 +39,8 @@ struct ChannelCounters {
   std::int64_t late = 0;                    ///< accepted messages that were too old to be used
 };
 
-/// The newest heartbeat received from another process. That process compares the clocks by it
-/// (runtime/clock_exchange.h).
+/// Times of the newest heartbeat that was received from another process. From its echo, that process computes the
+/// offset of the two clocks (runtime/clock_exchange.h).
 struct ClockEcho {
   std::int64_t sender_epoch_us = 0;  ///< names the other process
   UTime sent;                        ///< `utime` of its heartbeat, by its clock

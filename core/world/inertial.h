@@ -1,6 +1,5 @@
 // The messages IMU, FEATURE_TRACKS, POSITION_FIX and ODOMETRY: the inputs and the output of a visual-inertial
-// estimator. Frames: B is the body (x forward, y left, z up), W the world, O the odometry frame, in which the vehicle
-// integrates.
+// estimator. Frames: B is the body (x forward, y left, z up), W the world, O the odometry frame (frames.h).
 #pragma once
 
 #include <array>
@@ -13,9 +12,9 @@
 
 namespace tern {
 
-/// One measurement of an inertial measurement unit: means over the time since the one before.
+/// One measurement of an inertial measurement unit: means over the time since the previous sample.
 struct ImuSample {
-  UTime at;                              ///< end of that time, vehicle's clock
+  UTime at;                              ///< end of this time, vehicle's clock
   Vec3 angular_velocity = Vec3::Zero();  ///< B, rad/s
   Vec3 specific_force = Vec3::Zero();    ///< B, m/s²; at rest +g upwards
 };
@@ -68,11 +67,11 @@ enum class EstimatorState : std::uint8_t {
   Starting,  ///< waits for inputs or for rest; the pose is not valid
   Tracking,  ///< inertial and visual inputs are used
   Blind,     ///< inertial inputs only: no feature was used lately
-  Lost,      ///< the inputs contradict each other or are missing; the pose is not to be used
+  Lost,      ///< the inputs contradict each other or are missing; the pose must not be used
 };
 
-/// ODOMETRY: the estimate. The pose in O is continuous. A correction beyond the normal changes the transform T_WO and
-/// counts its epoch up. Covariances are about the true pose in W.
+/// ODOMETRY: the estimate. A large correction changes the transform T_WO and counts its epoch up; position and yaw in O
+/// stay (frames.h). Covariances are about the true pose in W.
 struct Odometry {
   Header header;
   UTime at;  ///< vehicle's clock

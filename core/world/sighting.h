@@ -15,7 +15,7 @@ enum class BoundSight : std::uint8_t {
   Face,      ///< a face of the box, fitted to its points
   Whole,     ///< the points end here, and beyond them the sensor saw farther
   Occluded,  ///< something nearer hides the continuation
-  Cut,       ///< the picture ends here
+  Cut,       ///< the picture, or the sensor's range, ends here
   Touching,  ///< another surface at the same depth continues
   Unseen,    ///< the bound faces away from the sensor, and nothing of it was seen
 };
