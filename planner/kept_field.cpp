@@ -1,37 +1,47 @@
 #include "planner/kept_field.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tern {
 namespace {
 
-/// Each side of a body farther out, to the next multiple of kBodyStep.
-Box rounded_up(const Box& body) {
-  const auto outwards = [](double x) { return kBodyStep * std::ceil(x / kBodyStep - 1e-9); };
-  return {-(-body.min()).unaryExpr(outwards), body.max().unaryExpr(outwards)};
+/// Each side of a box farther out, to the next multiple of kFieldStep.
+Box rounded_up(const Box& box) {
+  const auto outwards = [](double x) { return kFieldStep * std::ceil(x / kFieldStep - 1e-9); };
+  return {-(-box.min()).unaryExpr(outwards), box.max().unaryExpr(outwards)};
+}
+
+bool is_a_little_larger(const Box& kept, const Box& wanted) {
+  return kept.contains(wanted) && grown(wanted, Vec3::Constant(3.0 * kFieldStep)).contains(kept);
 }
 
 }  // namespace
 
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
-                          const std::vector<Box>& static_boxes, const Vec3& start) {
-  const auto made_for = [&](const GoalFieldKey& k) {
-    return KeptField{std::make_shared<const GoalField>(make_goal_field(k, map, static_boxes, start)), k};
+                          std::vector<Box> static_boxes, const Vec3& start) {
+  const auto made = [&](const GoalFieldKey& with_body, std::vector<Box> boxes) {
+    auto field = std::make_shared<const GoalField>(make_goal_field(with_body, map, boxes, start));
+    return KeptField{std::move(field), with_body, std::move(boxes)};
   };
-  if (!(map->error_price > 0.0)) return made_for(key);
+  if (!(key.speed > 0.0)) return made(key, std::move(static_boxes));
   GoalFieldKey rounded = key;
   rounded.body = rounded_up(key.body);
-  KeptField kept = made_for(rounded);
-  return kept.field->path_from(start) ? kept : made_for(key);
+  std::vector<Box> boxes = static_boxes;
+  std::ranges::transform(boxes, boxes.begin(), rounded_up);
+  KeptField kept = made(rounded, std::move(boxes));
+  return kept.field->path_from(start) ? kept : made(key, std::move(static_boxes));
 }
 
-bool serves(const GoalFieldKey& made_for, const GoalFieldKey& wanted) {
-  if (made_for == wanted) return true;
-  if (!(made_for.speed > 0.0)) return false;
-  GoalFieldKey with_wanted_body = made_for;
-  with_wanted_body.body = wanted.body;
-  return with_wanted_body == wanted && made_for.body.contains(wanted.body) &&
-         grown(wanted.body, Vec3::Constant(3.0 * kBodyStep)).contains(made_for.body);
+bool serves(const KeptField& kept, const GoalFieldKey& wanted, const std::vector<Box>& static_boxes) {
+  if (kept.key == wanted) return true;
+  if (!(wanted.speed > 0.0)) return false;
+  GoalFieldKey key = wanted;
+  key.body = kept.key.body;
+  key.statics = kept.key.statics;
+  return key == kept.key && is_a_little_larger(kept.key.body, wanted.body) &&
+         std::ranges::equal(kept.static_boxes, static_boxes, is_a_little_larger);
 }
 
 }  // namespace tern

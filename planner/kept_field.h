@@ -1,4 +1,4 @@
-// A goal field with an error price that is kept while the vehicle's tube changes.
+// A goal field with an error price that is kept while the vehicle's tube and the bounds of obstacles at rest change.
 #pragma once
 
 #include <memory>
@@ -8,24 +8,26 @@
 
 namespace tern {
 
-/// The sides of a body are rounded up to this for a field with an error price, m. Such a field takes time, and the
-/// measured tube changes several times a second.
-inline constexpr double kBodyStep = 0.1;
+/// Body and obstacles are rounded up to this for a field with an error price, m. Such a field takes time. The measured
+/// tube and, on an estimate, the bounds of obstacles change several times a second.
+inline constexpr double kFieldStep = 0.1;
 
-/// A goal field, and the key that it was made for.
+/// A goal field, and the inputs that it holds for.
 struct KeptField {
   std::shared_ptr<const GoalField> field;
-  GoalFieldKey key;
+  GoalFieldKey key;               ///< its body may be larger than the wanted one
+  std::vector<Box> static_boxes;  ///< they may be larger than the wanted ones
 };
 
-/// Returns make_goal_field(key, …). With an error price the sides of the body are first rounded up to kBodyStep, so
-/// that the field serves while the tube changes. If no way leads from the start for that body, the field is the one for
-/// the body as it is. A function of its arguments: a replay makes the same field of them.
+/// Returns make_goal_field(key, …). With an error price (speed > 0) the sides of body and static boxes are first
+/// rounded up to kFieldStep. The field then serves while they change. If no way leads from the start for these, the
+/// field is the one for body and boxes as they are. A function of its arguments: a replay makes the same field of them.
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
-                          const std::vector<Box>& static_boxes, const Vec3& start);
+                          std::vector<Box> static_boxes, const Vec3& start);
 
-/// Whether the field of one key also serves another. It serves an equal one. With an error price (speed > 0) it also
-/// serves each body that it contains and that is smaller by at most 3 kBodyStep per side.
-bool serves(const GoalFieldKey& made_for, const GoalFieldKey& wanted);
+/// Whether a field also serves other inputs. It serves equal keys. With an error price it also serves a body and static
+/// boxes that its own contain, each smaller by at most 3 kFieldStep per side.
+/// @param static_boxes  those whose digest is wanted.statics
+bool serves(const KeptField& kept, const GoalFieldKey& wanted, const std::vector<Box>& static_boxes);
 
 }  // namespace tern

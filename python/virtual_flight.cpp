@@ -96,6 +96,7 @@ class SteppedPlanner final : public Node {
     PlannerConfig config;
     std::shared_ptr<const MapProducts> map;
     std::shared_ptr<const GoalProducts> goal;
+    KeptField kept = {};  // of goal
   };
 
   void receive(const TrackSet& batch) {
@@ -125,18 +126,18 @@ class SteppedPlanner final : public Node {
   }
 
   /// Makes the field of distances again if goal, map, static tracks or the vehicle's box are new.
-  std::shared_ptr<const GoalProducts> goal_of(const Fields& fields) const {
+  std::shared_ptr<const GoalProducts> goal_of(Fields& fields) const {
     const GoalFieldKey key{goal_->position,   fields.map->version,
                            statics_.digest(), body_box(grown(open_->body, open_->tube)),
                            open_->flight_box, way_speed(*fields.map, open_->limits)};
-    if (fields.goal && fields.goal->field && serves(fields.goal->key, key)) {
+    if (fields.goal && fields.goal->field && serves(fields.kept, key, statics_.boxes())) {
       return std::make_shared<const GoalProducts>(
           GoalProducts{*goal_, fields.goal->key, fields.goal->field, fields.goal->made_from});
     }
     const GoalFieldInputs from{fields.map->version, statics_.epoch_us(), statics_.first_set(), statics_.digest(),
                                open_->header.name};
-    KeptField made = make_kept_field(key, fields.map, statics_.boxes(), open_->start.p);
-    return std::make_shared<const GoalProducts>(GoalProducts{*goal_, made.key, std::move(made.field), from});
+    fields.kept = make_kept_field(key, fields.map, statics_.boxes(), open_->start.p);
+    return std::make_shared<const GoalProducts>(GoalProducts{*goal_, fields.kept.key, fields.kept.field, from});
   }
 
   Bus& bus_;

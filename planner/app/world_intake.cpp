@@ -7,7 +7,6 @@
 #include "core/world/body.h"
 #include "messages/batching.h"
 #include "messages/channels.h"
-#include "planner/kept_field.h"
 #include "runtime/log.h"
 
 namespace tern {
@@ -116,11 +115,13 @@ void WorldIntake::publish_goal_to_hold() {
 }
 
 /// A product for an older goal that is ready after one for a newer goal is dropped.
-void WorldIntake::publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal) {
+void WorldIntake::publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal,
+                          std::optional<KeptField> made) {
   const std::lock_guard lock(mutex_);
   if (number < ready_number_) return;
   ready_number_ = number;
   ready_.goal = std::move(goal);
+  if (made) kept_ = std::move(*made);
 }
 
 void WorldIntake::note_blocked(std::string blocked) {
@@ -143,7 +144,7 @@ void WorldIntake::prepare() {
   if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
   const GoalFieldKey key{newest_goal_->position,        world.map->version, statics_.digest(), body_, flight_box_,
                          way_speed(*world.map, limits_)};
-  if (world.goal && world.goal->field && serves(world.goal->key, key)) {
+  if (world.goal && world.goal->field && still_serves(*world.goal, key)) {
     // A repeated goal is published by its new name: plans then name a message that a late logger has received.
     if (world.goal->goal.header.name == newest_goal_->header.name) return;
     return publish(goal_number_, std::make_shared<const GoalProducts>(GoalProducts{
@@ -153,10 +154,12 @@ void WorldIntake::prepare() {
   const bool is_new = !world.goal || world.goal->goal.id != newest_goal_->id;
   start([this, is_new, number = goal_number_, goal = *newest_goal_, key, names, map = world.map,
          boxes = statics_.boxes(), at = position_] {
-    auto [field, made_for] = make_kept_field(key, map, boxes, at);
+    const KeptField made = make_kept_field(key, map, boxes, at);
+    const auto& field = made.field;
     std::string blocked;
     if (!field->path_from(at)) {
-      blocked = fmt::format("goal {} is blocked: {}", goal.id, blocked_goal_text(*field, made_for, boxes, at, places_));
+      blocked = fmt::format("goal {} is blocked: {}", goal.id,
+                            blocked_goal_text(*field, made.key, made.static_boxes, at, places_));
       log::warn("{}", blocked);
     }
     note_blocked(std::move(blocked));
@@ -164,8 +167,13 @@ void WorldIntake::prepare() {
       log::info("error of the position foretold for goal {}: σ {:.2f} m there, {:.2f} m at the worst place", goal.id,
                 error->at_goal, error->at_worst);
     }
-    publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, made_for, std::move(field), names}));
+    publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, made.key, field, names}), made);
   });
+}
+
+bool WorldIntake::still_serves(const GoalProducts& goal, const GoalFieldKey& key) const {
+  const std::lock_guard lock(mutex_);
+  return goal.field == kept_.field && serves(kept_, key, statics_.boxes());
 }
 
 void WorldIntake::make_map(const VoxelMap& map) {

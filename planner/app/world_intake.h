@@ -11,7 +11,7 @@
 #include "core/world/scenario.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/worker.h"
-#include "planner/planning_world.h"
+#include "planner/kept_field.h"
 #include "planner/static_tracks.h"
 #include "runtime/batches.h"
 #include "runtime/bus.h"
@@ -29,7 +29,7 @@ inline constexpr Duration kGoalTaken{500'000};
 /// | a complete prediction set  | used at once; its static tracks are remembered                                      |
 /// | a complete map             | its fields are made in the background and then used; seconds for a large map        |
 /// | a goal to go to            | its distance field is made in the background and then used, again for a new map,    |
-/// |                            | new static tracks, body or flight box                                               |
+/// |                            | new static tracks, body or flight box (with an error price: kept_field.h)           |
 /// | a goal to hold or stop     | used at once: it needs no field                                                     |
 /// | a goal with a smaller id   | ignored, unless the vehicle sends it kGoalTaken after the last one                  |
 /// | other contents, same id    | the same, and counted as refused: inconsistent                                      |
@@ -61,8 +61,10 @@ class WorldIntake {
   void on_goal(const Goal& goal);
   void forget_before(std::int64_t epoch_us);
   void publish_goal_to_hold();
-  void publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal);
+  void publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal,
+               std::optional<KeptField> made = std::nullopt);
   void note_blocked(std::string blocked);
+  [[nodiscard]] bool still_serves(const GoalProducts& goal, const GoalFieldKey& key) const;
   void start(std::function<void()> job);
   void make_map(const VoxelMap& map);
 
@@ -84,9 +86,10 @@ class WorldIntake {
   Vec3 position_;        ///< of the vehicle, W
   MessageName vehicle_;  ///< the request that described the vehicle last; none: as configured
 
-  mutable std::mutex mutex_;  ///< guards ready_, ready_number_ and blocked_
+  mutable std::mutex mutex_;  ///< guards ready_, ready_number_, kept_ and blocked_
   PlanningWorld ready_;
   std::int64_t ready_number_ = 0;  ///< the goal_number_ of ready_.goal
+  KeptField kept_;                 ///< the newest field that was published, with its inputs
   std::string blocked_;
   std::unique_ptr<Worker> worker_;  ///< null: prepare at once. Last member: its job uses the others
 };

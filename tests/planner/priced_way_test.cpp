@@ -118,36 +118,51 @@ GoalFieldKey with_body(double half) {
   return key;
 }
 
-GoalFieldKey kept_for(double half, const std::vector<Box>& obstacles = {}) {
-  const KeptField kept = make_kept_field(with_body(half), lake_at_20().map, obstacles, lake_at_20().start);
+KeptField kept_for(double half, const std::vector<Box>& obstacles = {}) {
+  KeptField kept = make_kept_field(with_body(half), lake_at_20().map, obstacles, lake_at_20().start);
   EXPECT_TRUE(kept.field->path_from(lake_at_20().start));
-  return kept.key;
+  return kept;
 }
 
 TEST(PricedWay, FieldServesWhileTheTubeChanges) {
-  const GoalFieldKey made = kept_for(0.23);
-  EXPECT_NEAR(made.body.max().x(), 0.3, 1e-9);
-  for (const double half : {0.01, 0.1, 0.2, 0.23, 0.299}) EXPECT_TRUE(serves(made, with_body(half))) << half;
-  EXPECT_FALSE(serves(made, with_body(0.31)));
-  EXPECT_FALSE(serves(kept_for(0.53), with_body(0.1))) << "0.6 m would close passages for nothing";
+  const KeptField kept = kept_for(0.23);
+  EXPECT_NEAR(kept.key.body.max().x(), 0.3, 1e-9);
+  for (const double half : {0.01, 0.1, 0.2, 0.23, 0.299}) EXPECT_TRUE(serves(kept, with_body(half), {})) << half;
+  EXPECT_FALSE(serves(kept, with_body(0.31), {}));
+  EXPECT_FALSE(serves(kept_for(0.53), with_body(0.1), {})) << "0.6 m would close passages for nothing";
   GoalFieldKey elsewhere = with_body(0.23);
   elsewhere.goal.y() += 1.0;
-  EXPECT_FALSE(serves(made, elsewhere));
+  EXPECT_FALSE(serves(kept, elsewhere, {}));
 }
 
-TEST(PricedWay, WithoutAPriceAFieldServesItsOwnBodyAlone) {
-  GoalFieldKey made = with_body(0.2), smaller = with_body(0.19);
-  made.speed = smaller.speed = 0.0;
-  EXPECT_TRUE(serves(made, made));
-  EXPECT_FALSE(serves(made, smaller));
+TEST(PricedWay, FieldServesWhileTheBoundsOfObstaclesChange) {
+  const Box rock(Vec3(20.05, 4.05, 0.05), Vec3(29.95, 11.95, 3.95));
+  const KeptField kept = kept_for(0.23, {rock});
+  GoalFieldKey key = with_body(0.23);
+  key.statics = 7;  // another digest
+  const auto widened = [&](double by) { return std::vector<Box>{grown(rock, Vec3::Constant(by))}; };
+  for (const double by : {-0.2, 0.0, 0.049}) EXPECT_TRUE(serves(kept, key, widened(by))) << by;
+  EXPECT_FALSE(serves(kept, key, widened(0.06)));
+  EXPECT_FALSE(serves(kept, key, widened(-0.3)));
+  EXPECT_FALSE(serves(kept, key, {})) << "the rock is gone";
+  EXPECT_FALSE(serves(kept, key, {rock, rock})) << "there is one more";
+}
+
+TEST(PricedWay, WithoutAPriceAFieldServesItsOwnInputsAlone) {
+  KeptField kept{nullptr, with_body(0.2), {}};
+  kept.key.speed = 0.0;
+  GoalFieldKey smaller = kept.key;
+  smaller.body = box_around(Vec3::Zero(), Vec3::Constant(0.19));
+  EXPECT_TRUE(serves(kept, kept.key, {}));
+  EXPECT_FALSE(serves(kept, smaller, {}));
 }
 
 TEST(PricedWay, GoesThroughAPassageThatTheRoundedBodyWouldClose) {
   // A gap of 0.52 m in a wall: the vehicle needs 0.44 m, and 0.6 m if its sides are rounded up.
   const std::vector<Box> wall{Box(Vec3(20, -30, -2), Vec3(21, -0.26, 5)), Box(Vec3(20, 0.26, -2), Vec3(21, 30, 5))};
-  const GoalFieldKey made = kept_for(0.22, wall);
-  EXPECT_TRUE(made == with_body(0.22));
-  EXPECT_FALSE(serves(made, with_body(0.23)));
+  const KeptField kept = kept_for(0.22, wall);
+  EXPECT_TRUE(kept.key == with_body(0.22));
+  EXPECT_FALSE(serves(kept, with_body(0.23), wall));
 }
 
 /// The least J of all ways with two corners: brute force.
