@@ -7,14 +7,18 @@
 namespace tern {
 namespace {
 
+/// A side that is nearer than this to a multiple of kFieldStep is one, m: sums of decimal numbers differ by rounding.
+constexpr double kRounding = 1e-9;
+
 /// Each side of a box farther out, to the next multiple of kFieldStep.
 Box rounded_up(const Box& box) {
-  const auto outwards = [](double x) { return kFieldStep * std::ceil(x / kFieldStep - 1e-9); };
+  const auto outwards = [](double x) { return kFieldStep * std::ceil((x - kRounding) / kFieldStep); };
   return {-(-box.min()).unaryExpr(outwards), box.max().unaryExpr(outwards)};
 }
 
 bool is_a_little_larger(const Box& kept, const Box& wanted) {
-  return kept.contains(wanted) && grown(wanted, Vec3::Constant(3.0 * kFieldStep)).contains(kept);
+  return grown(kept, Vec3::Constant(kRounding)).contains(wanted) &&
+         grown(wanted, Vec3::Constant(3.0 * kFieldStep)).contains(kept);
 }
 
 }  // namespace

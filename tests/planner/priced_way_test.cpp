@@ -148,6 +148,16 @@ TEST(PricedWay, FieldServesWhileTheBoundsOfObstaclesChange) {
   EXPECT_FALSE(serves(kept, key, {rock, rock})) << "there is one more";
 }
 
+TEST(PricedWay, FieldServesSidesAtMultiplesOfItsStep) {
+  // Sums such as 0.1 + 0.2 and 10 + 0.3 differ from multiples of 0.1 by rounding.
+  std::vector<Box> pillars;
+  for (double x = 10.0; x < 70.0; x += 8.1) pillars.push_back(box_around(Vec3(x, 3.0, 1.0), Vec3(0.3, 0.3, 2.1)));
+  const KeptField kept = kept_for(0.1 + 0.2, pillars);
+  GoalFieldKey other = with_body(0.1 + 0.2);
+  other.statics = 7;
+  EXPECT_TRUE(serves(kept, other, pillars));
+}
+
 TEST(PricedWay, WithoutAPriceAFieldServesItsOwnInputsAlone) {
   KeptField kept{nullptr, with_body(0.2), {}};
   kept.key.speed = 0.0;
