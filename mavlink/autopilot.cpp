@@ -75,7 +75,7 @@ bool Autopilot::in_failsafe() const {
   return armed() && (heartbeat_.system_status == kCritical || heartbeat_.system_status == kEmergency);
 }
 
-bool Autopilot::comes_down() const { return landing() || mode() == "AUTO.RTL" || mode() == "RTL"; }
+bool Autopilot::comes_down() const { return landing() || mode().ends_with("RTL"); }
 
 std::string Autopilot::last_warning() const {
   const bool says_no_reason = warning_.starts_with("Arming denied") && !failed_check_.empty();

@@ -7,7 +7,8 @@ namespace tern::mavlink {
 
 std::vector<RequiredParameter> Bridge::required() const {
   const std::uint8_t system = autopilot_.address() ? autopilot_.address()->system : 0;
-  return required_parameters(autopilot_.firmware(), uav_, system, config_.without_remote, config_.external_vision);
+  return required_parameters(autopilot_.firmware(), uav_, system, config_.without_remote, config_.external_vision,
+                             autopilot_.parameters());
 }
 
 /// In flight, only parameters that were read count: a restarted bridge has not read them yet.

@@ -98,6 +98,14 @@ Duration Bridge::lead() const {
                               : autopilot_.stack().tilt_lag(autopilot_.parameters());
 }
 
+/// The acceleration that makes a vehicle with loops like a PX4's fly `m`.
+Vec3 Bridge::fed_forward(const MotionSample& m, bool following, UTime now) const {
+  const Vec3 ahead = following ? command_.acceleration_ahead(now, lead()) : m.a;
+  const Vec3 v_ahead = m.v + 0.5 * lead().seconds() * (m.a + ahead);
+  const Vec3 opposed = autopilot_.stack().derivative_gain(autopilot_.parameters()).cwiseProduct(m.a);
+  return config_.acceleration_gain * (ahead + opposed) + config_.drag_per_s * v_ahead;
+}
+
 void Bridge::stream(UTime now) {
   const FlightStack& stack = autopilot_.stack();
   const bool holds_blindly = at_.stage == Stage::StoodBack && !(autopilot_.linked(now) && estimate_fault(now).empty());
@@ -111,10 +119,7 @@ void Bridge::stream(UTime now) {
   const Duration held = stack.holds_setpoints() ? Duration{period.us / 2} : Duration{};
   const MotionSample m = following ? command_.sample(now + held) : own_->motion;
   const double yaw = following ? command_.yaw() : own_->yaw;
-  const Vec3 ahead = following ? command_.acceleration_ahead(now, lead()) : m.a;
-  const Vec3 v_ahead = m.v + 0.5 * lead().seconds() * (m.a + ahead);
-  const Vec3 opposed = stack.derivative_gain(autopilot_.parameters()).cwiseProduct(m.a);
-  const Vec3 a = config_.acceleration_gain * (ahead + opposed) + config_.drag_per_s * v_ahead;
+  const Vec3 a = stack.follows_acceleration() ? m.a : fed_forward(m, following, now);
   if (following) {
     last_sent_.motion = m;
     last_sent_.yaw = yaw;

@@ -70,8 +70,8 @@ class ArduPilot final : public FlightStack {
  public:
   [[nodiscard]] std::string mode(std::uint32_t custom) const override {
     static const std::map<std::uint32_t, const char*> kModes{
-        {0, "STABILIZE"}, {1, "ACRO"}, {2, "ALT_HOLD"}, {3, "AUTO"},     {4, "GUIDED"},
-        {5, "LOITER"},    {6, "RTL"},  {9, "LAND"},     {16, "POSHOLD"}, {17, "BRAKE"}};
+        {0, "STABILIZE"}, {1, "ACRO"}, {2, "ALT_HOLD"}, {3, "AUTO"},   {4, "GUIDED"},     {5, "LOITER"},   {6, "RTL"},
+        {7, "CIRCLE"},    {9, "LAND"}, {16, "POSHOLD"}, {17, "BRAKE"}, {21, "SMART_RTL"}, {27, "AUTO_RTL"}};
     const auto found = kModes.find(custom);
     return found == kModes.end() ? "mode " + std::to_string(custom) : found->second;
   }
@@ -86,6 +86,8 @@ class ArduPilot final : public FlightStack {
 
   [[nodiscard]] bool takes_off_by_command() const override { return true; }
   [[nodiscard]] bool holds_setpoints() const override { return false; }
+  /// AC_PosControl::input_pos_vel_accel_NE_m.
+  [[nodiscard]] bool follows_acceleration() const override { return true; }
   /// It stops and stays in GUIDED.
   [[nodiscard]] bool setpoints_end_failsafe() const override { return false; }
   [[nodiscard]] bool sends_integers_bytewise() const override { return false; }

@@ -52,6 +52,9 @@ class FlightStack {
   [[nodiscard]] virtual bool takes_off_by_command() const = 0;
   /// Whether it holds a setpoint until the next one. Otherwise it extrapolates.
   [[nodiscard]] virtual bool holds_setpoints() const = 0;
+  /// Whether it follows the motion that a setpoint's acceleration leads along, and corrects it towards position and
+  /// velocity. An acceleration that is not that of the path, as against drag, would lead it away from the path.
+  [[nodiscard]] virtual bool follows_acceleration() const { return false; }
   /// Whether setpoints return it to the following mode, in any failsafe.
   [[nodiscard]] virtual bool setpoints_end_failsafe() const = 0;
   /// Whether PARAM_VALUE contains the four bytes of an integer, and not its value as a float.

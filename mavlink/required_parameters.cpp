@@ -28,7 +28,7 @@ RequiredParameter only_read(const char* name, double otherwise) {
 
 /// A bound of the vehicle that a value of the scenario must be within.
 RequiredParameter vehicle_bound(const char* name, const RequiredParameter::Bound& bound) {
-  const double least = bound.inverse ? bound.scale / bound.planned : std::ceil(bound.planned / bound.scale);
+  const double least = bound.least();
   RequiredParameter r{name, -kAny, kAny, least, false, ""};
   r.bound = bound;
   return r;
@@ -78,45 +78,114 @@ double jerk_of(const Limits& limits) {
   return std::min(per_axis, rate * limits.dynamics->thrust_max);
 }
 
-/// In GUIDED, Copter shapes the commanded acceleration by its jerk limits (ModeGuided::posvelaccel_control_run,
-/// AP_Math's shape_accel_xy). Its limits of speed and acceleration bound corrections only.
-std::vector<RequiredParameter> bounds_of_copter(const UavSpec& uav) {
-  const char* const shaped = "it limits the commanded jerk to this, and lags metres behind faster changes, m/s3";
-  const auto [tilt_key, tilt] = tilt_of(uav.limits);
-  std::vector<RequiredParameter> bounds{vehicle_bound("ANGLE_MAX", {.key = tilt_key, .planned = tilt, .scale = 0.01})};
-  if (uav.limits.dynamics) bounds.push_back(thrust_bound("MOT_THST_HOVER", *uav.limits.dynamics));
-  const double jerk = jerk_of(uav.limits), up = std::min(uav.limits.j_max.z(), jerk);
-  if (std::isfinite(jerk)) bounds.push_back(at_least("PSC_JERK_XY", jerk, shaped));
-  if (std::isfinite(up)) bounds.push_back(at_least("PSC_JERK_Z", up, shaped));
-  for (RequiredParameter& bound : bounds) bound.may_be_absent = true;  // 4.7 has other names
-  return bounds;
+/// The names of a Copter's parameter up to version 4.6 and from 4.7 on, and the older unit in newer ones.
+struct Names {
+  const char *until_4_6, *since_4_7;
+  double unit = 1.0;
+};
+
+double read(const std::map<std::string, double>& values, const Names& names, double otherwise) {
+  if (const auto newer = values.find(names.since_4_7); newer != values.end()) return newer->second;
+  const auto older = values.find(names.until_4_6);
+  return older == values.end() ? otherwise : older->second * names.unit;
 }
 
-std::vector<RequiredParameter> of_copter(const UavSpec& uav, std::uint8_t system, const char* blind) {
+/// Adds a parameter, whose values have the newer unit, under both names. A vehicle has one of them.
+void add(std::vector<RequiredParameter>& required, RequiredParameter parameter, const Names& names) {
+  parameter.name = names.since_4_7;
+  parameter.also_called = names.until_4_6;
+  required.push_back(parameter);
+  std::swap(parameter.name, parameter.also_called);
+  for (double* value : {&parameter.low, &parameter.high, &parameter.recommended}) *value /= names.unit;
+  if (parameter.bound) parameter.bound->scale *= parameter.bound->root ? std::sqrt(names.unit) : names.unit;
+  required.push_back(parameter);
+}
+
+/// In GUIDED, Copter shapes the commanded acceleration (ModeGuided::posvelaccel_control_run, AP_Math's
+/// shape_pos_vel_accel_xy). Its jerk is limited to the least of (AC_PosControl::NE_set_max_speed_accel_m)
+///
+///     PSC_JERK_NE,  √(WP_ACC · g · ATC_ACC_MAX) / 2,
+///
+/// the latter only if ATC_RATE_FF_ENAB is 1 and ATC_ACC_MAX (the lesser of roll and pitch) is not 0. Vertically
+/// (D_set_max_speed_accel_m) the limits are PSC_JERK_D and min(g, WP_ACC_Z) · 2πf/5, with the corner frequency f of the
+/// acceleration's filter. WP_ACC is also the acceleration of a flight home, so it is a bound of the vehicle.
+void add_jerk(std::vector<RequiredParameter>& required, const UavSpec& uav,
+              const std::map<std::string, double>& values) {
+  const char* const shaped = "it limits the commanded jerk to this, and lags metres behind faster changes, m/s3";
+  const Names roll{"ATC_ACCEL_R_MAX", "ATC_ACC_R_MAX", 0.01}, pitch{"ATC_ACCEL_P_MAX", "ATC_ACC_P_MAX", 0.01};
+  const Names filter{"PSC_ACCZ_FLTE", "PSC_D_ACC_FLTE"};
+  constexpr double kAngularAcceleration = 1100.0, kFilter = 20.0;  // the firmware's defaults, degrees/s² and Hz
+  constexpr double kRadians = std::numbers::pi / 180.0, kReserve = 0.9;
+  add(required, only_read("", kAngularAcceleration), roll);
+  add(required, only_read("", kAngularAcceleration), pitch);
+  add(required, only_read("", kFilter), filter);
+  required.push_back(only_read("ATC_RATE_FF_ENAB", 1.0));
+  const double turns =
+      std::min(read(values, roll, kAngularAcceleration), read(values, pitch, kAngularAcceleration)) * kRadians;
+  const double hz = read(values, filter, kFilter);
+  const double jerk = jerk_of(uav.limits), up = std::min(uav.limits.j_max.z(), jerk);
+  const bool stated = jerk == uav.limits.j_max.head<2>().norm();
+  if (std::isfinite(jerk)) {
+    add(required, at_least("", jerk, shaped), {"PSC_JERK_XY", "PSC_JERK_NE"});
+    const char* const key = stated ? "uav.limits.j_max (x and y together)"
+                                   : "uav.limits.j_max (not stated: body_rate_max · thrust_max of uav.dynamics)";
+    const RequiredParameter::Bound bound{
+        .key = key, .planned = jerk, .scale = 0.5 * std::sqrt(kGravity * turns), .root = true, .advised = kReserve};
+    if (turns > 0.0 && value_or(values, "ATC_RATE_FF_ENAB", 1.0) != 0.0) {
+      add(required, vehicle_bound("", bound), {"WPNAV_ACCEL", "WP_ACC", 0.01});
+    }
+  }
+  if (!std::isfinite(up)) return;
+  add(required, at_least("", up, shaped), {"PSC_JERK_Z", "PSC_JERK_D"});
+  if (hz <= 0.0) return;
+  const RequiredParameter::Bound bound{
+      .key = "uav.limits.j_max (z)", .planned = up, .scale = 2.0 * std::numbers::pi * hz / 5.0, .advised = kReserve};
+  add(required, vehicle_bound("", bound), {"WPNAV_ACCEL_Z", "WP_ACC_Z", 0.01});
+}
+
+std::vector<RequiredParameter> of_copter(const UavSpec& uav, std::uint8_t system, const char* blind,
+                                         const std::map<std::string, double>& values) {
   std::vector<RequiredParameter> required{
       {"GUID_TIMEOUT", 0.2, 1.0, 0.5, false, blind},
       {"FS_GCS_ENABLE", 5, 5, 5, false, "after a loss of this link it would fly on or fly home; 5 lands"}};
-  for (const auto& [name, other] : {std::pair{"SYSID_MYGCS", "MAV_GCS_SYSID"}, {"MAV_GCS_SYSID", "SYSID_MYGCS"}}) {
-    const double id = system;
-    required.push_back({name, id, id, id, false, "the bridge's HEARTBEAT would not count for FS_GCS_ENABLE"});
-    required.back().also_called = other;
-  }
-  for (const RequiredParameter& bound : bounds_of_copter(uav)) required.push_back(bound);
+  required.push_back({"GUID_OPTIONS", -kAny, kAny, 0, false, "it would not correct position or velocity (16, 32)"});
+  required.back().no_bits = 16 | 32;
+  required.back().may_be_absent = true;
+  const double id = system;
+  add(required, {"", id, id, id, false, "the bridge's HEARTBEAT would not count for FS_GCS_ENABLE"},
+      {"SYSID_MYGCS", "MAV_GCS_SYSID"});
+  const auto [tilt_key, tilt] = tilt_of(uav.limits);
+  add(required, vehicle_bound("", {.key = tilt_key, .planned = tilt}), {"ANGLE_MAX", "ATC_ANGLE_MAX", 0.01});
+  if (uav.limits.dynamics) required.push_back(thrust_bound("MOT_THST_HOVER", *uav.limits.dynamics));
+  add_jerk(required, uav, values);
   return required;
 }
 
 }  // namespace
 
+double RequiredParameter::Bound::largest(double value) const {
+  if (inverse) return scale / value;
+  return scale * (root ? std::sqrt(value) : value);
+}
+
+double RequiredParameter::Bound::least() const {
+  if (inverse) return scale / planned;
+  const double linear = planned / scale;
+  return std::ceil(root ? linear * linear : linear);
+}
+
 bool RequiredParameter::allows(double value) const {
   constexpr double kSinglePrecision = 1e-6;
   if (bound) return bound->planned <= bound->largest(value) * (1.0 + kSinglePrecision);
-  return value >= low && value <= high && (static_cast<int>(bits != 0 ? value : 0.0) & bits) == bits;
+  const int set = bits != 0 || no_bits != 0 ? static_cast<int>(value) : 0;
+  return value >= low && value <= high && (set & bits) == bits && (set & no_bits) == 0;
 }
 
 std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavSpec& uav, std::uint8_t system,
-                                                   bool without_remote, bool external_vision) {
+                                                   bool without_remote, bool external_vision,
+                                                   const std::map<std::string, double>& values) {
   const char* const blind = "for this time it flies on without setpoints, s";
-  if (firmware == Firmware::ArduPilot) return of_copter(uav, system, blind);
+  if (firmware == Firmware::ArduPilot) return of_copter(uav, system, blind, values);
   if (firmware != Firmware::Px4) return {};
   std::vector<RequiredParameter> required{
       {"COM_OBL_RC_ACT", 4, 5, 4, true, "without setpoints it would return and climb; 4 lands, 5 holds"},
@@ -163,11 +232,12 @@ namespace {
 std::string fault_of(const RequiredParameter& r, double value) {
   if (r.bound) {
     const double largest = r.bound->largest(value);
-    const std::string meaning = r.bound->scale == 1.0 ? "" : fmt::format(" (allows {:.4g})", largest);
+    const std::string meaning = r.bound->scale == 1.0 && !r.bound->root ? "" : fmt::format(" (allows {:.4g})", largest);
     return fmt::format("{} is {:.4g}, but {} is {:.4g}{}: {:.3g} would fit", r.bound->key, r.bound->planned, r.name,
                        value, meaning, r.bound->advised * largest);
   }
-  const std::string range = r.bits != 0             ? fmt::format("without bits {}", r.bits)
+  const std::string range = r.no_bits != 0          ? fmt::format("with bits of {}", r.no_bits)
+                            : r.bits != 0           ? fmt::format("without bits {}", r.bits)
                             : std::isfinite(r.high) ? fmt::format("not within [{:g}, {:g}]", r.low, r.high)
                                                     : fmt::format("below {:g}", r.low);
   return fmt::format("{} is {:g}, {}: {}", r.name, value, range, r.why);

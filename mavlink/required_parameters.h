@@ -20,6 +20,7 @@ struct RequiredParameter {
   bool integer;        ///< an integer in PX4, where it is sent bytewise in a float
   const char* why;     ///< reason, as in "the aircraft flies home at another height when setpoints cease"
   int bits = 0;        ///< bits of an integer that must be set
+  int no_bits = 0;     ///< forbidden bits
   /// Not every firmware version has it under this name: its absence is no fault.
   bool may_be_absent = false;
   const char* also_called = nullptr;  ///< its name in other versions: one of the two is enough.
@@ -29,9 +30,12 @@ struct RequiredParameter {
     double planned;        ///< that value
     double scale = 1.0;    ///< its largest value is scale · parameter
     bool inverse = false;  ///< or scale / parameter
+    bool root = false;     ///< or scale · √parameter
     bool writable = true;  ///< by raise_bounds; false: it is a property of the vehicle
     double advised = 0.8;  ///< share of the largest value that leaves a reserve for corrections
-    [[nodiscard]] double largest(double value) const { return inverse ? scale / value : scale * value; }
+    [[nodiscard]] double largest(double value) const;
+    /// The parameter's least value for `planned`, rounded up to an integer unless it is a share.
+    [[nodiscard]] double least() const;
   };
   std::optional<Bound> bound = std::nullopt;
 
@@ -47,8 +51,10 @@ struct RequiredParameter {
 /// @param system  the autopilot's system id, which the bridge uses as well
 /// @param without_remote  there is neither a remote control nor a ground station
 /// @param external_vision  the estimator uses the ODOMETRY that the bridge sends
+/// @param values  the parameters that were read: what an ArduPilot must have depends on its other parameters
 std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavSpec& uav, std::uint8_t system,
-                                                   bool without_remote, bool external_vision);
+                                                   bool without_remote, bool external_vision,
+                                                   const std::map<std::string, double>& values = {});
 
 /// Returns the faults with name, value, limit and reason: "COM_OBL_RC_ACT is 0, not within [4, 5]: …". For a bound that
 /// is the key, and a value that fits: "uav.dynamics.tilt_max is 70, but MPC_TILTMAX_AIR is 45: 36 would fit".

@@ -1,5 +1,7 @@
 // The simulated autopilot's behaviour as an ArduPilot.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "mavlink/sim/simulated_autopilot.h"
 
@@ -11,7 +13,7 @@ constexpr std::uint8_t kAccepted = 0, kFailed = 4;
 constexpr int kGuided = 4, kLoiter = 5, kLand = 9;
 /// MOT_SPOOL_TIME, DISARM_DELAY.
 constexpr Duration kSpoolUp{1'000'000}, kDisarmDelay{10'000'000};
-constexpr double kClimbSpeed = 1.0, kStop = 4.0;
+constexpr double kClimbSpeed = 1.0;
 
 }  // namespace
 
@@ -50,17 +52,32 @@ void SimulatedAutopilot::fly_guided(UTime t) {
     return;
   }
   if (!guided_) return;
-  if (t - *last_target_ <= Duration::from_seconds(parameters_["GUID_TIMEOUT"])) {
-    command_ = target_;
-    const double later = (t - *last_target_).seconds();
-    command_.motion.p += later * (target_.motion.v + 0.5 * later * target_.motion.a);
-    command_.motion.v += later * target_.motion.a;
-    return;
-  }
-  guided_ = false;
-  const Vec3 v = command_.motion.v;
-  command_.motion.p += v * (v.norm() / (2.0 * kStop));
-  command_.motion.v = command_.motion.a = Vec3::Zero();
+  const Duration since = t - *last_target_, timeout = Duration::from_seconds(parameters_["GUID_TIMEOUT"]);
+  const double later = std::min(since, timeout).seconds();
+  MotionSample setpoint = target_.motion;
+  setpoint.p += later * (target_.motion.v + 0.5 * later * target_.motion.a);
+  setpoint.v += later * target_.motion.a;
+  if (since > timeout) setpoint.v = setpoint.a = Vec3::Zero();
+  command_.motion = shaper_.step(setpoint, level_shaping(), vertical_shaping(), kVehicleStep.seconds());
+  command_.yaw = target_.yaw;
+}
+
+/// AC_PosControl's NE_set_max_speed_accel_m: the jerk is at most what the angular acceleration allows on average.
+ShapingLimits SimulatedAutopilot::level_shaping() const {
+  const auto value = [&](const char* name) { return parameters_.at(name); };
+  const double turns = std::min(value("ATC_ACC_R_MAX"), value("ATC_ACC_P_MAX")) * std::numbers::pi / 180.0;
+  ShapingLimits limits{value("WP_ACC"), value("PSC_JERK_NE")};
+  if (turns <= 0.0 || value("ATC_RATE_FF_ENAB") == 0.0) return limits;
+  limits.jerk = std::min(limits.jerk, 0.5 * std::sqrt(limits.acceleration * kGravity * turns));
+  return limits;
+}
+
+/// D_set_max_speed_accel_m: the jerk is at most what the filter of the acceleration lets through.
+ShapingLimits SimulatedAutopilot::vertical_shaping() const {
+  ShapingLimits limits{parameters_.at("WP_ACC_Z"), parameters_.at("PSC_JERK_D")};
+  const double passes = 2.0 * std::numbers::pi * parameters_.at("PSC_D_ACC_FLTE") / 5.0;
+  limits.jerk = std::min(limits.jerk, std::min(kGravity, limits.acceleration) * passes);
+  return limits;
 }
 
 }  // namespace tern::mavlink

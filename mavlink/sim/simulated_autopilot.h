@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mavlink/messages.h"
+#include "mavlink/sim/guided_shaper.h"
 #include "simulator/vehicle/quadrotor_model.h"
 
 namespace tern::mavlink {
@@ -51,11 +52,12 @@ struct SimulatedAutopilotConfig {
 /// | modes           | POSCTL, OFFBOARD, AUTO.LOITER, AUTO.LAND       | LOITER, GUIDED, LAND                         |
 /// | streams         | see below                                      | HEARTBEAT 1 Hz, SYS_STATUS 5 Hz              |
 /// | following mode  | needs setpoints for 0.5 s to arm, or in flight | at any time                                  |
-/// | setpoints       | held until the next one                        | extrapolated until the next one              |
-/// | setpoints cease | after COM_OF_LOSS_T: COM_OBL_RC_ACT            | after GUID_TIMEOUT: stops, in GUIDED         |
+/// | setpoints       | held until the next one                        | extrapolated, and shaped (GuidedShaper)      |
+/// | setpoints cease | after COM_OF_LOSS_T: COM_OBL_RC_ACT            | after GUID_TIMEOUT: comes back to the place  |
+/// |                 |                                                | of that moment, in GUIDED                    |
 /// | setpoints again | returns to OFFBOARD                            | follows them                                 |
 /// | take-off        | by setpoints: spin-up 1 s, speed ramp 3 s      | by NAV_TAKEOFF; a setpoint ends it           |
-/// | tilt limit      | MPC_TILTMAX_LND (12°) until the speed ramp has | ANGLE_MAX                                    |
+/// | tilt limit      | MPC_TILTMAX_LND (12°) until the speed ramp has | ATC_ANGLE_MAX                                |
 /// |                 | ended, then 11.5°/s up to MPC_TILTMAX_AIR      |                                              |
 /// | no take-off     | disarms after 10 s                             | disarms after 10 s                           |
 /// | after landing   | disarms; the mode is that before landing       | disarms; stays in LAND                       |
@@ -119,6 +121,8 @@ class SimulatedAutopilot {
   [[nodiscard]] std::uint8_t set_ardupilots_mode(int custom);
   [[nodiscard]] std::uint8_t take_off(float above_home, UTime now);
   void fly_guided(UTime t);
+  [[nodiscard]] ShapingLimits level_shaping() const;
+  [[nodiscard]] ShapingLimits vertical_shaping() const;
   void begin_streams(UTime now);
   void receive_vision(const Odometry& seen, UTime now);
   void jump_up(double metres);
@@ -169,8 +173,9 @@ class SimulatedAutopilot {
   double home_up_ = 0.0;                ///< in the estimate's frame, m
   std::optional<double> takes_off_to_;  ///< in the estimate's frame, m
   bool guided_ = false;                 ///< setpoints were received since GUIDED began
-  double ramp_ = 1.0;                   ///< share of its speed during take-off
-  double tilt_deg_ = 0.0;               ///< present tilt limit
+  GuidedShaper shaper_;
+  double ramp_ = 1.0;      ///< share of its speed during take-off
+  double tilt_deg_ = 0.0;  ///< present tilt limit
   UTime last_step_, now_;
   double battery_ = 0.9;
   std::map<std::string, double> parameters_;

@@ -23,19 +23,52 @@ bool is_integer(const std::string& name) { return std::ranges::find(kIntegers, n
 
 std::map<std::string, double> SimulatedAutopilot::default_parameters(const SimulatedAutopilotConfig& config) {
   const double hover = 1.0 / config.quadrotor.body.thrust_to_weight;
-  return {{"COM_OBL_RC_ACT", 0.0},   {"COM_OF_LOSS_T", 1.0},     {"MPC_XY_VEL_D_ACC", config.velocity_d},
-          {"COM_RC_IN_MODE", 3.0},   {"COM_RCL_EXCEPT", 0.0},    {"NAV_DLL_ACT", 2.0},
-          {"MPC_XY_VEL_MAX", 12.0},  {"MPC_Z_VEL_MAX_UP", 3.0},  {"MPC_Z_VEL_MAX_DN", 1.5},
-          {"MPC_TILTMAX_AIR", 45.0}, {"MC_ROLLRATE_MAX", 220.0}, {"MC_PITCHRATE_MAX", 220.0},
-          {"EKF2_EV_CTRL", 0.0},     {"EKF2_HGT_REF", 1.0},      {"EKF2_GPS_CTRL", 7.0},
-          {"EKF2_MAG_TYPE", 0.0},    {"EKF2_BARO_CTRL", 1.0},    {"SIM_ARM_REFUSE", 0.0},
-          {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0},      {"GUID_TIMEOUT", 3.0},
-          {"SIM_EV_JUMP", 8.3},      {"FS_GCS_ENABLE", 0.0},     {"SIM_HOME_UP", 0.0},
-          {"MC_AIRMODE", 0.0},       {"MPC_ACC_DECOUPLE", 1.0},  {"SYSID_MYGCS", 255.0},
-          {"ANGLE_MAX", 3000.0},     {"PSC_JERK_XY", 5.0},       {"PSC_JERK_Z", 5.0},
-          {"MPC_TKO_RAMP_T", 3.0},   {"MPC_TILTMAX_LND", 12.0},  {"MPC_Z_VEL_D_ACC", 0.0},
-          {"MPC_XY_P", 0.95},        {"MPC_XY_VEL_P_ACC", 1.8},  {"MPC_XY_VEL_I_ACC", 0.4},
-          {"MC_ROLL_P", 6.5},        {"MPC_THR_HOVER", hover},   {"MOT_THST_HOVER", hover}};
+  return {{"COM_OBL_RC_ACT", 0.0},
+          {"COM_OF_LOSS_T", 1.0},
+          {"MPC_XY_VEL_D_ACC", config.velocity_d},
+          {"COM_RC_IN_MODE", 3.0},
+          {"COM_RCL_EXCEPT", 0.0},
+          {"NAV_DLL_ACT", 2.0},
+          {"MPC_XY_VEL_MAX", 12.0},
+          {"MPC_Z_VEL_MAX_UP", 3.0},
+          {"MPC_Z_VEL_MAX_DN", 1.5},
+          {"MPC_TILTMAX_AIR", 45.0},
+          {"MC_ROLLRATE_MAX", 220.0},
+          {"MC_PITCHRATE_MAX", 220.0},
+          {"EKF2_EV_CTRL", 0.0},
+          {"EKF2_HGT_REF", 1.0},
+          {"EKF2_GPS_CTRL", 7.0},
+          {"EKF2_MAG_TYPE", 0.0},
+          {"EKF2_BARO_CTRL", 1.0},
+          {"SIM_ARM_REFUSE", 0.0},
+          {"SIM_BAT_PCT", 90.0},
+          {"SIM_EST_JUMP", 0.0},
+          {"GUID_TIMEOUT", 3.0},
+          {"SIM_EV_JUMP", 8.3},
+          {"FS_GCS_ENABLE", 0.0},
+          {"SIM_HOME_UP", 0.0},
+          {"MC_AIRMODE", 0.0},
+          {"MPC_ACC_DECOUPLE", 1.0},
+          {"MAV_GCS_SYSID", 255.0},
+          {"ATC_ANGLE_MAX", 30.0},
+          {"PSC_JERK_NE", 5.0},
+          {"PSC_JERK_D", 5.0},
+          {"GUID_OPTIONS", 0.0},
+          {"WP_ACC", 2.5},
+          {"WP_ACC_Z", 1.0},
+          {"ATC_RATE_FF_ENAB", 1.0},
+          {"ATC_ACC_R_MAX", 1100.0},
+          {"ATC_ACC_P_MAX", 1100.0},
+          {"PSC_D_ACC_FLTE", 20.0},
+          {"MPC_TKO_RAMP_T", 3.0},
+          {"MPC_TILTMAX_LND", 12.0},
+          {"MPC_Z_VEL_D_ACC", 0.0},
+          {"MPC_XY_P", 0.95},
+          {"MPC_XY_VEL_P_ACC", 1.8},
+          {"MPC_XY_VEL_I_ACC", 0.4},
+          {"MC_ROLL_P", 6.5},
+          {"MPC_THR_HOVER", hover},
+          {"MOT_THST_HOVER", hover}};
 }
 
 /// The configuration without the feed-forward, which the bridge sends.
@@ -64,7 +97,7 @@ void SimulatedAutopilot::take_tuned_parameters() {
   parameters_["MPC_XY_VEL_I_ACC"] = gains.velocity_i;
   parameters_["MC_ROLL_P"] = gains.attitude_p;
   parameters_["MPC_TILTMAX_AIR"] = gains.tilt_max * kDegrees;
-  parameters_["ANGLE_MAX"] = 100.0 * gains.tilt_max * kDegrees;
+  parameters_["ATC_ANGLE_MAX"] = gains.tilt_max * kDegrees;
   parameters_["MC_ROLLRATE_MAX"] = parameters_["MC_PITCHRATE_MAX"] = gains.rate_max * kDegrees;
   for (const char* name : {"MPC_XY_VEL_MAX", "MPC_Z_VEL_MAX_UP", "MPC_Z_VEL_MAX_DN"})
     parameters_[name] = gains.speed_max;
@@ -73,10 +106,9 @@ void SimulatedAutopilot::take_tuned_parameters() {
 /// PX4's limit is MPC_TILTMAX_LND until the take-off ramp has ended, and changes at kTiltSlew.
 void SimulatedAutopilot::limit_tilt(double dt) {
   const bool flies = armed_ && ramp_since_ && ramp_ >= 1.0;
-  const double limit = parameters_[is_ardupilot() ? "ANGLE_MAX" : flies ? "MPC_TILTMAX_AIR" : "MPC_TILTMAX_LND"];
+  const double limit = parameters_[is_ardupilot() ? "ATC_ANGLE_MAX" : flies ? "MPC_TILTMAX_AIR" : "MPC_TILTMAX_LND"];
   const double before = std::exchange(
-      tilt_deg_,
-      is_ardupilot() ? limit / 100.0 : std::clamp(limit, tilt_deg_ - kTiltSlew * dt, tilt_deg_ + kTiltSlew * dt));
+      tilt_deg_, is_ardupilot() ? limit : std::clamp(limit, tilt_deg_ - kTiltSlew * dt, tilt_deg_ + kTiltSlew * dt));
   if (tilt_deg_ != before) tune();
 }
 

@@ -35,6 +35,61 @@ TEST(ArduPilotManners, ItTakesOffByCommandFollowsFromItsHeightAndLands) {
   EXPECT_FALSE(flight.autopilot.armed());
 }
 
+TEST(ArduPilotManners, AStraightFlightIsNotAheadOfItsSetpointsForAnAccelerationAgainstDrag) {
+  static constexpr double kSpeed = 3.0, kDuring = 4.0;
+  UavSpec uav = FlightInMemory::uav();
+  uav.limits.j_max = Vec3(15, 15, 10);
+  FlightInMemory flight(kArms, copter());
+  flight.set_parameter("ATC_ACC_R_MAX", 1100.0F);
+  flight.set_parameter("WP_ACC", 16.0F);  // its shaping corrects slowly: 22/16 per second
+  flight.bridge = Bridge(kArms, uav, flight.now);
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
+  flight.path = [](double t) {
+    MotionSample m{Vec3(0, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    const double s = std::min(t, kSpeed);
+    m.p.x() = 0.5 * s * s + kSpeed * (t - s);
+    m.v.x() = s;
+    m.a.x() = t < kSpeed ? 1.0 : 0.0;
+    return m;
+  };
+  flight.run(10.0);
+  double ahead = 0.0;
+  int n = 0;
+  flight.each = [&] {
+    const double commanded = flight.path((flight.now - *flight.follows_since).seconds()).p.x();
+    ahead += flight.autopilot.model().truth().motion.p.x() - commanded;
+    ++n;
+  };
+  flight.run(kDuring);
+  EXPECT_NEAR(ahead / n, 0.0, 0.1);
+}
+
+TEST(ArduPilotManners, PlansWhoseJerkItsOwnAccelerationDoesNotAllowAreNotFlown) {
+  UavSpec uav = FlightInMemory::uav();
+  uav.limits.j_max = Vec3(15, 15, 10);
+  FlightInMemory flight(kArms, copter());
+  flight.set_parameter("ATC_ACC_R_MAX", 1100.0F);
+  flight.bridge = Bridge(kArms, uav, flight.now);
+  flight.run(10.0);
+  EXPECT_FALSE(flight.autopilot.armed());
+  EXPECT_EQ(flight.bridge.status(flight.now).why_not,
+            "uav.limits.j_max (x and y together) is 21.21, but WP_ACC is 2.5 (allows 10.85): 9.76 would fit");
+}
+
+TEST(ArduPilotManners, SetpointsThatCeaseLeaveItInGuidedWhereTheLastOneWas) {
+  FlightInMemory flight(kArms, copter());
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.path = along;
+  flight.run(6.0);
+  const Vec3 last = along((flight.now - *flight.follows_since).seconds()).p;
+  flight.bridge_runs = false;
+  flight.run(8.0);
+  EXPECT_EQ(flight.autopilot.mode(), "GUIDED");
+  const MotionSample rest = flight.autopilot.model().truth().motion;
+  EXPECT_LT(rest.v.norm(), 0.1);
+  EXPECT_NEAR(rest.p.x() - last.x(), 2.0 * 0.5, 0.3) << "GUID_TIMEOUT at 2 m/s";
+}
+
 TEST(ArduPilotManners, ItsHeightIsToldAboveHomeWhereverThatIs) {
   for (const float up : {-3.0F, 1.0F}) {
     FlightInMemory flight(kArms, copter());

@@ -476,25 +476,58 @@ TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
   EXPECT_THAT(faults(false, false), HasSubstr("uav.dynamics.tilt_max (not stated) is 85, but MPC_TILTMAX_AIR is 60"));
 }
 
-TEST(RequiredParameters, OfACopterAreThoseThatShapeWhatItIsTold) {
+TEST(RequiredParameters, OfACopterAreThoseThatShapeWhatItIsToldUnderTheNamesOfItsVersion) {
   UavSpec uav;
   uav.limits.dynamics = Dynamics{.thrust_max = 16.0, .tilt_max_deg = 38.0, .body_rate_max_deg_s = 170.0};
-  std::map<std::string, double> values{{"GUID_TIMEOUT", 0.5}, {"FS_GCS_ENABLE", 5}, {"SYSID_MYGCS", 255},
-                                       {"ANGLE_MAX", 3000},   {"PSC_JERK_XY", 5},   {"PSC_JERK_Z", 5}};
+  const std::map<std::string, double> older{{"GUID_TIMEOUT", 0.5}, {"FS_GCS_ENABLE", 5},   {"SYSID_MYGCS", 255},
+                                            {"ANGLE_MAX", 3000},   {"PSC_JERK_XY", 5},     {"PSC_JERK_Z", 5},
+                                            {"WPNAV_ACCEL", 250},  {"WPNAV_ACCEL_Z", 100}, {"ATC_ACCEL_R_MAX", 110000}};
+  const std::map<std::string, double> newer{{"GUID_TIMEOUT", 0.5}, {"FS_GCS_ENABLE", 5}, {"MAV_GCS_SYSID", 255},
+                                            {"ATC_ANGLE_MAX", 30}, {"PSC_JERK_NE", 5},   {"PSC_JERK_D", 5},
+                                            {"WP_ACC", 2.5},       {"WP_ACC_Z", 1},      {"ATC_ACC_R_MAX", 1100}};
+  auto values = older;
   const auto faults = [&] {
-    return parameter_faults(required_parameters(Firmware::ArduPilot, uav, 3, false, false), values, true);
+    return parameter_faults(required_parameters(Firmware::ArduPilot, uav, 3, false, false, values), values, true);
   };
   EXPECT_THAT(faults(), HasSubstr("SYSID_MYGCS is 255, not within [3, 3]"));
   EXPECT_THAT(faults(), HasSubstr("uav.dynamics.tilt_max is 38, but ANGLE_MAX is 3000 (allows 30): 24 would fit"));
   EXPECT_THAT(faults(), HasSubstr("PSC_JERK_XY is 5, below 47.4"));  // 16 m/s2 that turn by 170 degrees/s
+  EXPECT_THAT(faults(), HasSubstr("is 47.47, but WPNAV_ACCEL is 250 (allows 10.85): 9.76 would fit"));
+  EXPECT_THAT(faults(), HasSubstr("uav.limits.j_max (z) is 47.47, but WPNAV_ACCEL_Z is 100 (allows 25.13)"));
+  values = newer;
+  EXPECT_THAT(faults(), HasSubstr("MAV_GCS_SYSID is 255, not within [3, 3]"));
+  EXPECT_THAT(faults(), HasSubstr("uav.dynamics.tilt_max is 38, but ATC_ANGLE_MAX is 30: 24 would fit"));
+  EXPECT_THAT(faults(), HasSubstr("PSC_JERK_NE is 5, below 47.4"));
+  EXPECT_THAT(faults(), HasSubstr("PSC_JERK_D is 5, below 47.4"));
+  EXPECT_THAT(faults(), HasSubstr("is 47.47, but WP_ACC is 2.5 (allows 10.85): 9.76 would fit"));
+  values["ATC_ACC_R_MAX"] = 275.0;
+  EXPECT_THAT(faults(), HasSubstr("WP_ACC is 2.5 (allows 5.42")) << "a large vehicle turns slowly";
+  values["ATC_ACC_R_MAX"] = 0.0;
+  EXPECT_THAT(faults(), Not(HasSubstr("WP_ACC is"))) << "0 is no limit";
+
   uav.limits.j_max = Vec3(3, 4, 2);
-  EXPECT_THAT(faults(), Not(HasSubstr("PSC_JERK")));
-  values["ANGLE_MAX"] = 3800, values["SYSID_MYGCS"] = 3;
-  EXPECT_EQ(faults(), "");
-  values = {{"GUID_TIMEOUT", 0.5}, {"FS_GCS_ENABLE", 5}, {"MAV_GCS_SYSID", 3}};
-  EXPECT_EQ(faults(), "") << "a newer one calls them otherwise";
-  values.erase("MAV_GCS_SYSID");
-  EXPECT_THAT(faults(), HasSubstr("SYSID_MYGCS was not read")) << "under one of both names it is there";
+  for (const bool is_older : {true, false}) {
+    values = is_older ? older : newer;
+    values[is_older ? "ANGLE_MAX" : "ATC_ANGLE_MAX"] *= 38.0 / 30.0;
+    values[is_older ? "SYSID_MYGCS" : "MAV_GCS_SYSID"] = 3;
+    values["GUID_OPTIONS"] = 5;
+    EXPECT_EQ(faults(), "");
+    values["GUID_OPTIONS"] = 5 + 16;
+    EXPECT_THAT(faults(), HasSubstr("GUID_OPTIONS is 21, with bits of 48: it would not correct position or velocity"));
+    values.erase(is_older ? "SYSID_MYGCS" : "MAV_GCS_SYSID");
+    EXPECT_THAT(faults(), HasSubstr("SYSID_MYGCS was not read")) << "under one of both names it is there";
+  }
+}
+
+TEST(RequiredParameters, OfACopterFitWhenTheyAreWritten) {
+  UavSpec uav;
+  uav.limits.dynamics = Dynamics{.thrust_max = 16.0, .tilt_max_deg = 38.0, .body_rate_max_deg_s = 170.0};
+  std::map<std::string, double> values;
+  for (const RequiredParameter& r : required_parameters(Firmware::ArduPilot, uav, 3, false, false)) {
+    values[r.name] = r.recommended;
+  }
+  EXPECT_EQ(parameter_faults(required_parameters(Firmware::ArduPilot, uav, 3, false, false, values), values, true), "");
+  EXPECT_EQ(values.at("WPNAV_ACCEL"), 100.0 * values.at("WP_ACC")) << "cm/s2 in older versions";
 }
 
 TEST(Axes, TurnBothWaysAndAgree) {

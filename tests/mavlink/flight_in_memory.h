@@ -36,7 +36,10 @@ class FlightInMemory {
   explicit FlightInMemory(const BridgeConfig& bridge_config = {.start = Start::Arm, .set_parameters = true},
                           const SimulatedAutopilotConfig& autopilot_config = {}, std::uint64_t seed = 1)
       : config(bridge_config), rng(seed), bridge(bridge_config, uav(), now), autopilot(autopilot_config, seed, now) {
-    set_parameter("ANGLE_MAX", 4500.0F);  // an ArduPilot whose owner allows the tilt of uav()
+    // An ArduPilot whose owner allows the tilt and the jerk of uav().
+    for (const auto& [name, value] : {std::pair{"ATC_ANGLE_MAX", 45.0F}, {"ATC_ACC_R_MAX", 0.0F}, {"WP_ACC_Z", 3.0F}}) {
+      set_parameter(name, value);
+    }
     autopilot.take_frames();
   }
 
