@@ -132,9 +132,12 @@ TEST(Wire, RefusesBytesThatAreNoMessage) {
   ros::PointCloud2 cloud;
   ros::Detection3DArray detections;
   ros::TFMessage transforms;
-  Filler(3).fill(cloud);
+  ros::PoseStamped pose;
+  ros::Odometry odometry;
+  Filler(3).fill(cloud), Filler(4).fill(pose), Filler(5).fill(odometry);
   detections.detections.resize(2), transforms.transforms.resize(2);
-  const std::array<std::string, 3> good = {encode(cloud), encode(detections), encode(transforms)};
+  const std::array<std::string, 6> good = {encode(cloud), encode(detections), encode(transforms),
+                                           encode(pose),  encode(odometry),   encode(ros::Bool{true})};
   const int mutations = support::at_effort(20'000);
   for (int k = 0; k < mutations; ++k) {
     const std::size_t which = below(good.size());
@@ -146,6 +149,9 @@ TEST(Wire, RefusesBytesThatAreNoMessage) {
     if (which == 0) expect_exact<ros::PointCloud2>(bytes);
     if (which == 1) expect_exact<ros::Detection3DArray>(bytes);
     if (which == 2) expect_exact<ros::TFMessage>(bytes);
+    if (which == 3) expect_exact<ros::PoseStamped>(bytes);
+    if (which == 4) expect_exact<ros::Odometry>(bytes);
+    if (which == 5) expect_exact<ros::Bool>(bytes);
   }
   for (const std::string& bytes : good) {
     EXPECT_FALSE(decode<ros::Path>(span_of(bytes))) << "another type";

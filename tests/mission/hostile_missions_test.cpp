@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "core/base/random.h"
 #include "mission/readers/mission_file.h"
+#include "mission/upload/mission_server.h"
 #include "semantic_mapper/sources/fence_file.h"
 #include "tests/mission/some_site.h"
 #include "tests/support/effort.h"
@@ -61,6 +64,18 @@ std::string mutated(std::string text, Rng& rng) {
   return text;
 }
 
+void expect_sane_steps(const std::vector<Step>& steps) {
+  ASSERT_FALSE(steps.empty());
+  ASSERT_NE(steps.back().action, Action::Pass);
+  for (const Step& step : steps) {
+    ASSERT_TRUE(step.position.allFinite());
+    ASSERT_LE(step.position.cwiseAbs().maxCoeff(), 2.0 * kMaxDistance);
+    ASSERT_GE(step.hold_s, 0.0);
+    ASSERT_GE(step.radius, 0.0);
+    for (const char c : step.name) ASSERT_TRUE(c >= ' ' && c <= '~');
+  }
+}
+
 void expect_sane(std::string_view text, const std::string& file) {
   const auto mission = parse_mission(text, file, testing::some_site());
   if (!mission) {
@@ -68,15 +83,7 @@ void expect_sane(std::string_view text, const std::string& file) {
     ASSERT_LT(mission.error().message.size(), 400u);
     return;
   }
-  ASSERT_FALSE(mission->steps.empty());
-  ASSERT_NE(mission->steps.back().action, Action::Pass);
-  for (const Step& step : mission->steps) {
-    ASSERT_TRUE(step.position.allFinite());
-    ASSERT_LE(step.position.cwiseAbs().maxCoeff(), 2.0 * kMaxDistance);
-    ASSERT_GE(step.hold_s, 0.0);
-    ASSERT_GE(step.radius, 0.0);
-    for (const char c : step.name) ASSERT_TRUE(c >= ' ' && c <= '~');
-  }
+  expect_sane_steps(mission->steps);
 }
 
 void expect_sane_fences(std::string_view text, const std::string& file) {
@@ -113,6 +120,52 @@ TEST(HostileMissions, MutatedGeoJsonGivesAValueOrAnError) {
     expect_sane(text, "a.geojson");
     expect_sane_fences(text, "a.geojson");
   }
+}
+
+/// Items of a legal mission: take-off, waypoints, a hold, a landing.
+mavlink::MissionItemInt legal_item(std::uint16_t seq, std::uint16_t count) {
+  constexpr float kNotGiven = std::numeric_limits<float>::quiet_NaN();
+  mavlink::MissionItemInt item;
+  item.seq = seq;
+  item.command = seq == 0 ? 22 : seq + 1 == count ? 21 : seq % 3 == 2 ? 19 : 16;
+  item.frame = 6;
+  item.autocontinue = 1;
+  item.param = {1.0F, 0.0F, 0.0F, kNotGiven};
+  item.x = 473'980'000 + 100 * seq;
+  item.y = 85'456'000;
+  item.z = 10.0F;
+  item.target_system = 7;
+  item.target_component = 1;
+  return item;
+}
+
+TEST(HostileMissions, MutatedUploadsGiveAMissionOrAReason) {
+  Rng rng(4);
+  const Site site = testing::some_site();
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng.uniform(0, static_cast<double>(n))); };
+  int taken = 0, refused = 0;
+  const auto take = [&](const std::vector<Item>& items) -> std::string {
+    if (items.empty()) return "";
+    const auto steps = steps_of(items, site);
+    steps ? ++taken : ++refused;
+    if (steps) expect_sane_steps(*steps);
+    return steps ? "" : steps.error().message;
+  };
+  for (int k = 0; k < kMutations && !HasFatalFailure(); ++k) {
+    MissionServer server({7, 1}, {take, [](Order) { return std::string(); }});
+    const auto count = static_cast<std::uint16_t>(1 + below(6));
+    server.receive(mavlink::to_frame(mavlink::MissionCount{count, 7, 1, 0, 0}, {255, 190}, 0), UTime{1});
+    const std::size_t spoiled = below(count);
+    for (std::uint16_t seq = 0; seq < count; ++seq) {
+      mavlink::Frame frame = mavlink::to_frame(legal_item(seq, count), {255, 190}, 0);
+      for (std::size_t n = seq == spoiled ? 1 + below(3) : 0; n > 0; --n) {
+        frame.payload[below(frame.payload.size())] = static_cast<std::uint8_t>(below(256));
+      }
+      ASSERT_LE(server.receive(frame, UTime{2}).size(), 12u);
+    }
+  }
+  EXPECT_GT(taken, kMutations / 20);
+  EXPECT_GT(refused, kMutations / 20);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/world/message_limits.h"
 #include "messages/codec.h"
 #include "ros_messages/cdr.h"
 #include "tests/ros_bridge/made_up.h"
@@ -283,6 +284,10 @@ TEST_F(Intake, HostileBytesGiveLegalMessagesOrNone) {
         goal.id = 1;
         goal.position = *position;
         publish(goal);
+      }
+      if (const auto reading = message ? read_odometry(*message, context) : Taken<OdometryReading>();
+          message && reading) {
+        EXPECT_LE(reading->position.cwiseAbs().maxCoeff(), 2 * kMaxCoordinate);
       }
     } else if (const auto message = try_as(ros::TFMessage())) {
       for (const auto& transform : message->transforms) (void)transforms.add(transform, rng() % 2 == 0, kNow);

@@ -2,10 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <random>
 
+#include "core/world/message_limits.h"
 #include "ros_messages/types.h"
 #include "tests/support/effort.h"
 #include "viewer/foxglove/protocol.h"
@@ -90,26 +93,54 @@ TEST(FoxgloveGoal, IsRefusedInAnotherFrameOrBeyondNumbers) {
   EXPECT_THAT(other.error().message, HasSubstr("frame"));
 }
 
+/// Overwrites, repeats, removes or cuts off some bytes.
+template <class Bytes>
+Bytes mutated(Bytes bytes, std::mt19937_64& random) {
+  for (std::size_t n = 1 + random() % 3; n > 0 && !bytes.empty(); --n) {
+    const auto at = bytes.begin() + static_cast<std::ptrdiff_t>(random() % bytes.size());
+    const auto end = at + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(random() % 9), bytes.end() - at);
+    switch (random() % 4) {
+      case 0: *at = static_cast<typename Bytes::value_type>(random()); break;
+      case 1: bytes.erase(at, end); break;
+      case 2: {
+        const Bytes piece(at, end);
+        bytes.insert(at, piece.begin(), piece.end());
+        break;
+      }
+      default:
+        if (random() % 4 == 0) bytes.erase(at, bytes.end());
+    }
+  }
+  return bytes;
+}
+
 TEST(FoxgloveGoal, SurvivesMutatedMessages) {
   std::mt19937_64 random(11);
   const auto cdr = bytes_of(ros::encode_cdr(some_pose()));
   const auto json = bytes_of(R"({"header":{"frame_id":"map"},"pose":{"position":{"x":1,"y":-2,"z":3.0}}})");
-  const std::string text = R"({"op":"subscribe","subscriptions":[{"id":7,"channelId":3}]})";
-  for (int k = 0; k < 1'000 * support::effort(); ++k) {
+  const auto published = bytes_of(std::string("\x01\x02\x00\x00\x00", 5) + ros::encode_cdr(some_pose()));
+  const std::string texts[] = {
+      R"({"op":"subscribe","subscriptions":[{"id":7,"channelId":3},{"id":8,"channelId":4}]})",
+      R"({"op":"unsubscribe","subscriptionIds":[7,8]})",
+      R"({"op":"advertise","channels":[{"id":2,"topic":"/goal_pose","encoding":"cdr","schemaName":"x"}]})",
+      R"({"op":"unadvertise","channelIds":[2]})"};
+  int goals = 0, parsed = 0;
+  const int mutations = support::at_effort(20'000);
+  for (int k = 0; k < mutations; ++k) {
     for (const auto& [channel, whole] : {std::pair(kCdr, cdr), std::pair(kJson, json)}) {
-      auto bytes = whole;
-      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
-      if (random() % 3 == 0) bytes.resize(random() % bytes.size());
-      const auto position = goal_position(channel, bytes, "map");
-      if (position) {
-        EXPECT_TRUE(position->allFinite());
-      }
-      (void)parse_client_binary(bytes);
+      const auto position = goal_position(channel, mutated(whole, random), "map");
+      if (!position) continue;
+      ++goals;
+      ASSERT_LE(position->cwiseAbs().maxCoeff(), kMaxCoordinate);
     }
-    std::string changed = text;
-    changed[random() % changed.size()] = static_cast<char>(random());
-    (void)parse_client_text(changed);
+    const auto bytes = mutated(published, random);
+    if (const auto message = parse_client_binary(bytes)) {
+      ASSERT_LE(message->payload.size(), bytes.size());
+    }
+    parsed += parse_client_text(mutated(texts[static_cast<std::size_t>(k) % std::size(texts)], random)) ? 1 : 0;
   }
+  EXPECT_GT(goals, mutations / 20);
+  EXPECT_GT(parsed, mutations / 20);
 }
 
 }  // namespace
