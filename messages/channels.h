@@ -13,6 +13,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/inertial.h"
+#include "core/world/map_file.h"
 #include "core/world/observation.h"
 #include "core/world/plan_heading.h"
 #include "core/world/scan.h"
@@ -62,6 +63,8 @@ inline constexpr Duration kSilence{1'000'000};
 /// For senders on which a vehicle in flight depends. Predictions of this age are stale, and plans are short, so a
 /// restarted predictor, planner or executor must be accepted by then.
 inline constexpr Duration kShortSilence{300'000};
+/// MAP_FILE is repeated every 5 s.
+inline constexpr Duration kMapFileSilence{6'000'000};
 inline constexpr auto kAnyone = std::nullopt;
 inline constexpr bool kLatched = true, kStream = false;
 
@@ -87,6 +90,9 @@ inline constexpr Channel<CloudScan> kPointCloud{
 /// Distances that a camera measured, for a live map; several cameras may send.
 inline constexpr Channel<DepthImage> kDepthImage{
     "DEPTH_IMAGE", Scope::Vehicle, "at most 20 Hz", kStream, Role::Vehicle, kAnyone};
+/// A map that another program made, for a live map.
+inline constexpr Channel<MapFile> kMapFile{
+    "MAP_FILE", Scope::Vehicle, "on demand, repeated every 5 s", kLatched, Role::Vehicle, kMapFileSilence};
 /// Motions that the owner of obstacles declares, with α.
 inline constexpr Channel<TrackSet> kDeclaredMotions{
     "DECLARED_MOTIONS", Scope::Shared, "5 Hz", kStream, Role::Vehicle, kSilence};
@@ -148,13 +154,13 @@ inline constexpr Channel<FlightResult> kFlightResult{
     "FLIGHT_RESULT", Scope::Vehicle, "at the end", kLatched, Role::Vehicle, kSilence};
 // clang-format on
 
-inline constexpr std::tuple kAll{kUavState,          kSetpoint,    kVehicleStatus, kObstacleObservations,
-                                 kObstacleSightings, kPointCloud,  kDepthImage,    kDeclaredMotions,
-                                 kPredictions,       kTrackBounds, kSemanticMap,   kGoal,
-                                 kHorizonRequest,    kPlan,        kPlanHeading,   kPlanTiming,
-                                 kSearchView,        kHeartbeat,   kConfiguration, kObstacleTruth,
-                                 kVehicleTruth,      kImu,         kFeatureTracks, kPositionFix,
-                                 kOdometry,          kFlightResult};
+inline constexpr std::tuple kAll{kUavState,          kSetpoint,     kVehicleStatus, kObstacleObservations,
+                                 kObstacleSightings, kPointCloud,   kDepthImage,    kDeclaredMotions,
+                                 kPredictions,       kTrackBounds,  kSemanticMap,   kGoal,
+                                 kHorizonRequest,    kPlan,         kPlanHeading,   kPlanTiming,
+                                 kSearchView,        kHeartbeat,    kConfiguration, kObstacleTruth,
+                                 kVehicleTruth,      kImu,          kFeatureTracks, kPositionFix,
+                                 kOdometry,          kFlightResult, kMapFile};
 
 }  // namespace channels
 

@@ -61,6 +61,9 @@ inline constexpr const char* kLcmType<TrackBounds> = "track_bounds_t";
 /// Inconsistent: runs end beyond the grid; a class has no name; the first class name has text.
 template <>
 inline constexpr const char* kLcmType<MapChunk> = "map_chunk_t";
+/// Inconsistent: the part is not below the number of parts.
+template <>
+inline constexpr const char* kLcmType<MapFile> = "map_file_t";
 template <>
 inline constexpr const char* kLcmType<Goal> = "goal_t";
 /// Time: t_s precedes the committed trajectory; the deadline is later than t_s − kDeadlineLead. Inconsistent: the

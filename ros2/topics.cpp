@@ -18,6 +18,7 @@ const std::vector<ros::FeedTopic>& received_topics() {
                                                       {topics::kOdom, &ros::ros_type<ros::Odometry>()},
                                                       {topics::kDetections, &ros::ros_type<ros::Detection3DArray>()},
                                                       {topics::kCloud, &ros::ros_type<ros::PointCloud2>()},
+                                                      {topics::kOctomap, &ros::ros_type<ros::Octomap>(), true},
                                                       {topics::kFollowing, &ros::ros_type<ros::Bool>()}};
   return kTopics;
 }
@@ -36,6 +37,7 @@ Qos writer_qos(const ros::FeedTopic& topic) {
 
 Qos reader_qos(const ros::FeedTopic& topic) {
   constexpr int kDepth = 10, kTransforms = 100, kClouds = 2;
+  if (topic.name == topics::kOctomap) return {.reliable = true, .latched = true, .depth = 1};
   if (topic.latched) return {.reliable = true, .latched = true, .depth = kTransforms};
   if (topic.name == topics::kGoalPose) return {.reliable = true, .latched = false, .depth = kDepth};
   if (topic.name == topics::kTf) return {.reliable = false, .latched = false, .depth = kTransforms};

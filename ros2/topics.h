@@ -12,7 +12,8 @@ namespace tern::ros2 {
 
 namespace topics {
 using namespace ros::topics;
-inline constexpr char kClock[] = "/clock", kTfStatic[] = "/tf_static", kCloud[] = "/cloud", kFollowing[] = "/following";
+inline constexpr char kClock[] = "/clock", kTfStatic[] = "/tf_static", kCloud[] = "/cloud", kFollowing[] = "/following",
+                      kOctomap[] = "/octomap_binary";
 }  // namespace topics
 
 /// The topics that tern-ros2 can send: those of the feed, drawings as markers, and /clock.
@@ -25,7 +26,7 @@ const std::vector<ros::FeedTopic>& transform_topics();
 /// A writer is reliable, which fits every reader; a latched one keeps its newest message for later readers.
 Qos writer_qos(const ros::FeedTopic& topic);
 /// A reader is content with the best effort, which fits every writer. Goals are sent once, so their reader is reliable.
-/// /tf_static is latched and reliable, as all of its writers are.
+/// /tf_static and the OctoMap are latched and reliable, as their writers are.
 Qos reader_qos(const ros::FeedTopic& topic);
 
 /// Returns the user data of a reader or writer: the hash of its type, as rmw reads it.

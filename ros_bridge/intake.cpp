@@ -20,14 +20,6 @@ constexpr std::int64_t kTrackIds = 1'000'000'000;
 
 tl::unexpected<Refusal> refuse(std::string why) { return tl::unexpected(Refusal{std::move(why), false}); }
 
-/// Returns the pose of a frame in W.
-Taken<RigidTransform> pose_of(const std::string& frame, std::optional<UTime> at, const IntakeContext& context) {
-  if (frame.empty()) return refuse("header.frame_id is empty; it must name a frame");
-  auto pose = context.transforms.find(context.world_frame, frame, at);
-  if (!pose) return tl::unexpected(Refusal{pose.error().message + " (/tf, /tf_static)", true});
-  return *pose;
-}
-
 bool is_finite(const ros::Vector3& v, double limit) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= limit && !std::isnan(v.x + v.y + v.z);
 }
@@ -139,6 +131,13 @@ float float_at(const std::uint8_t* bytes) {
 }
 
 }  // namespace
+
+Taken<RigidTransform> pose_of(const std::string& frame, std::optional<UTime> at, const IntakeContext& context) {
+  if (frame.empty()) return refuse("header.frame_id is empty; it must name a frame");
+  auto pose = context.transforms.find(context.world_frame, frame, at);
+  if (!pose) return tl::unexpected(Refusal{pose.error().message + " (/tf, /tf_static)", true});
+  return *pose;
+}
 
 Taken<OdometryReading> read(const ros::Odometry& odometry, const IntakeContext& context) {
   const auto pose = read_pose_in_world({odometry.header, odometry.pose.pose}, context, kOldestOdometry);

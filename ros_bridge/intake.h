@@ -8,6 +8,7 @@
 
 #include "core/base/time.h"
 #include "core/base/types.h"
+#include "core/world/map_file.h"
 #include "core/world/observation.h"
 #include "core/world/scan.h"
 #include "ros_bridge/transforms.h"
@@ -69,5 +70,12 @@ Taken<Vec3> read(const ros::PoseStamped& goal, const IntakeContext& context);
 
 /// The scans of a cloud with float32 fields x, y, z, and with `class` (uint8) if it has one.
 Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeContext& context);
+
+/// The parts of an OctoMap as a file, whose time is context.now: an OctoMap stays valid however old it is. Its frame
+/// may lie elsewhere than W, but its axes must be W's to 1e-3 rad. tern-mapper reads the octree.
+Taken<std::vector<MapFile>> read(const ros::Octomap& octomap, const IntakeContext& context);
+
+/// Returns the pose of a frame in W. @param at  nullopt: the newest
+Taken<RigidTransform> pose_of(const std::string& frame, std::optional<UTime> at, const IntakeContext& context);
 
 }  // namespace tern::ros

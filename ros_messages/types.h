@@ -281,5 +281,21 @@ struct PointCloud2 {
     visit("is_dense", m.is_dense);
   }
 };
+/// An octree as the bytes of a .bt or .ot file without their header.
+struct Octomap {
+  static constexpr const char* kName = "octomap_msgs/msg/Octomap";
+  Head header;
+  bool binary = true;  ///< of a .bt file, else of an .ot file
+  std::string id = "OcTree";
+  double resolution = 0.1;  ///< m
+  std::vector<std::int8_t> data;
+  static void fields(auto& m, auto& visit) {
+    visit("header", m.header);
+    visit("binary", m.binary);
+    visit("id", m.id);
+    visit("resolution", m.resolution);
+    visit("data", m.data);
+  }
+};
 
 }  // namespace tern::ros

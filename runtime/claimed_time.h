@@ -8,6 +8,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/inertial.h"
+#include "core/world/map_file.h"
 #include "core/world/observation.h"
 #include "core/world/scan.h"
 #include "core/world/sighting.h"
@@ -31,6 +32,7 @@ inline UTime claimed_time(const TrackSet& m) { return std::max(claimed_time(m.he
 inline UTime claimed_time(const ObservationSet& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const CloudScan& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const DepthImage& m) { return std::max(claimed_time(m.header), m.at); }
+inline UTime claimed_time(const MapFile& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const SightingSet& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const ImuBatch& m) { return std::max(claimed_time(m.header), m.samples.back().at); }
 inline UTime claimed_time(const FeatureFrame& m) { return std::max(claimed_time(m.header), m.at); }

@@ -11,17 +11,15 @@
 namespace tern::ros2 {
 namespace {
 
-constexpr Duration kCloudPeriod{50'000};
+constexpr Duration kCloudPeriod{50'000}, kOctomapPeriod{500'000};
 
 ros::Input input_of(const std::string& topic) {
   using ros::Input;
-  static const std::map<std::string, Input> kInputs = {{topics::kGoalPose, Input::Goal},
-                                                       {topics::kOdom, Input::Odometry},
-                                                       {topics::kFollowing, Input::Following},
-                                                       {topics::kDetections, Input::Detections},
-                                                       {topics::kCloud, Input::Cloud},
-                                                       {topics::kTf, Input::Transforms},
-                                                       {topics::kTfStatic, Input::StaticTransforms}};
+  static const std::map<std::string, Input> kInputs = {
+      {topics::kGoalPose, Input::Goal},       {topics::kOdom, Input::Odometry},
+      {topics::kFollowing, Input::Following}, {topics::kDetections, Input::Detections},
+      {topics::kCloud, Input::Cloud},         {topics::kOctomap, Input::Octomap},
+      {topics::kTf, Input::Transforms},       {topics::kTfStatic, Input::StaticTransforms}};
   return kInputs.at(topic);
 }
 
@@ -54,13 +52,16 @@ void Inlet::receive(Reader& reader, UTime now) {
   const auto decode = []<class Message>(std::span<const std::uint8_t> bytes) {
     return ros::decode_cdr<Message>(bytes);
   };
-  const int most = reader.input == ros::Input::Cloud ? 1 : 100;
+  const Duration period = reader.input == ros::Input::Cloud     ? kCloudPeriod
+                          : reader.input == ros::Input::Octomap ? kOctomapPeriod
+                                                                : Duration{};
+  const int most = period > Duration{} ? 1 : 100;
   for (int k = 0; k < most; ++k) {
     const auto cdr = participant_.take(reader.number);
     if (!cdr) return;
     inlet_.receive(reader.input, reader.topic, {reinterpret_cast<const std::uint8_t*>(cdr->data()), cdr->size()}, now,
                    decode);
-    if (reader.input == ros::Input::Cloud) reader.next = now + kCloudPeriod;
+    reader.next = now + period;
   }
 }
 

@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
         app.add_option("--send", options.send, "Topics that are sent, separated by commas; `all` (default) or `none`");
         app.add_option("--receive", options.receive,
                        "Topics that act on the flight, separated by commas: goal_pose, odom, following, detections, "
-                       "cloud (default: none)");
+                       "cloud, octomap_binary (default: none)");
         app.add_option("--goal-height", goal_height, "A goal's height: `pose`, or `keep`: the vehicle's (RViz sends 0)")
             .one_of({"pose", "keep"});
         app.add_option("--detection-sigma", options.in.detection_sigma_m,

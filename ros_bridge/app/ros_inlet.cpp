@@ -98,6 +98,7 @@ void RosInlet::step(UTime now) {
     });
   }
   if (const auto goal = goals_.due(now)) bus_.publish(channels::kGoal, *goal);
+  while (const MapFile* part = map_files_.due(now)) bus_.publish(channels::kMapFile, *part);
   if (vehicle_) publish_status(now);
 }
 
@@ -150,6 +151,13 @@ std::optional<Refusal> RosInlet::use_cloud(const PointCloud2& cloud, UTime now) 
   const auto scans = read(cloud, context(now));
   if (!scans) return scans.error();
   return refusal_of([&] { bus_.publish_paced(channels::kPointCloud, *scans); });
+}
+
+std::optional<Refusal> RosInlet::use_octomap(const Octomap& octomap, UTime now) {
+  auto parts = read(octomap, context(now));
+  if (!parts) return parts.error();
+  map_files_.set(std::move(*parts));
+  return std::nullopt;
 }
 
 std::optional<Refusal> RosInlet::use_following(const Bool& following, UTime now) {

@@ -17,6 +17,7 @@
 #include "core/world/scenario.h"
 #include "ros_bridge/goal_sender.h"
 #include "ros_bridge/intake.h"
+#include "ros_bridge/map_file_sender.h"
 #include "ros_bridge/odometry_vehicle.h"
 #include "ros_bridge/pose_velocity.h"
 #include "runtime/bus.h"
@@ -31,6 +32,7 @@ enum class Input : std::uint8_t {
   Following,         ///< Bool
   Detections,        ///< Detection3DArray
   Cloud,             ///< PointCloud2
+  Octomap,           ///< Octomap
   Transforms,        ///< TFMessage
   StaticTransforms,  ///< TFMessage
 };
@@ -98,6 +100,7 @@ class RosInlet {
   std::optional<Refusal> use_detections(const Detection3DArray& array, UTime now);
   std::optional<Refusal> use_goal(const PoseStamped& goal, UTime now);
   std::optional<Refusal> use_cloud(const PointCloud2& cloud, UTime now);
+  std::optional<Refusal> use_octomap(const Octomap& octomap, UTime now);
   std::optional<Refusal> use_following(const Bool& following, UTime now);
   std::optional<Refusal> use_transforms(const TFMessage& message, UTime now);
   std::optional<Refusal> use_static_transforms(const TFMessage& message, UTime now);
@@ -113,6 +116,7 @@ class RosInlet {
   std::optional<OdometryVehicle> vehicle_;  ///< nullopt: another process is the vehicle
   PoseVelocity pose_velocity_;
   GoalSender goals_;
+  MapFileSender map_files_;
   Box places_;                           ///< of the vehicle's position
   std::optional<Vec3> position_;         ///< the newest UAV_STATE's
   std::optional<UTime> other_received_;  ///< VEHICLE_STATUS of another process
@@ -144,6 +148,7 @@ void RosInlet::receive(Input input, const std::string& topic, std::span<const st
     case Input::Following: return use(&RosInlet::use_following);
     case Input::Detections: return use(&RosInlet::use_detections);
     case Input::Cloud: return use(&RosInlet::use_cloud);
+    case Input::Octomap: return use(&RosInlet::use_octomap);
     case Input::Transforms: return use(&RosInlet::use_transforms);
     case Input::StaticTransforms: return use(&RosInlet::use_static_transforms);
   }

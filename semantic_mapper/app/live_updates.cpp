@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "runtime/log.h"
 #include "semantic_mapper/app/load_source.h"
 #include "semantic_mapper/sources/class_names.h"
 #include "semantic_mapper/voxel_map/voxel_painter.h"
@@ -34,13 +37,29 @@ LiveUpdates::LiveUpdates(Bus& bus, const VoxelMap& base, const LiveSetup& setup)
       version_(base.version),
       next_map_(bus.clock().now()) {
   bus.subscribe(channels::kUavState, [this](const UavState& state) { setup_.position = state.motion.p; });
+  bus.subscribe(channels::kMapFile, [this](const MapFile& part) { receive(part); });
+}
+
+void LiveUpdates::begin() {
+  if (!std::exchange(has_begun_, true)) map_.free_start(setup_.body, setup_.position);
+}
+
+/// A refused file changes nothing: the one before stays.
+void LiveUpdates::receive(const MapFile& part) {
+  const auto bytes = file_parts_.add(part);
+  if (!bytes) return;
+  const auto octomap = parse_octomap(*bytes, "MAP_FILE", {-part.origin, 1.0});
+  refused_file_ = octomap ? "" : octomap.error().message;
+  if (!octomap) return log::warn("an OctoMap is not used: {}", refused_file_);
+  begin();
+  map_.set_octomap(*octomap);
 }
 
 void LiveUpdates::add_scans(UTime now) {
   const std::int64_t left_out = intake_.left_out();
   if (intake_.add_to(map_, now) == 0) return;
   if (intake_.left_out() > left_out) last_left_out_ = now;
-  if (!last_scan_) map_.free_start(setup_.body, setup_.position);
+  begin();
   last_scan_ = now;
 }
 
@@ -53,13 +72,15 @@ std::optional<VoxelMap> LiveUpdates::take_new(UTime now) {
 }
 
 std::string LiveUpdates::waiting_for() const {
-  if (!last_scan_) return "a scan on POINT_CLOUD or DEPTH_IMAGE";
+  if (!has_begun_) return "a scan on POINT_CLOUD or DEPTH_IMAGE, or an OctoMap on MAP_FILE";
+  if (!last_scan_) return "";
   const Duration silence = bus_.clock().now() - *last_scan_;
   if (silence < kScanSilence) return "";
   return fmt::format("scans: the last one came {:.0f} s ago", silence.seconds());
 }
 
-std::string LiveUpdates::overloaded() const {
+std::string LiveUpdates::trouble() const {
+  if (!refused_file_.empty()) return "an OctoMap is not used: " + refused_file_;
   if (!last_left_out_ || bus_.clock().now() - *last_left_out_ >= kScanSilence) return "";
   return fmt::format("overloaded: {} scans so far were left out for newer ones; send fewer points", intake_.left_out());
 }

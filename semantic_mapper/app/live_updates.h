@@ -1,4 +1,4 @@
-// The live part of tern-mapper: scans and the vehicle's position in, new versions of the map out.
+// The live part of tern-mapper: scans, OctoMaps and the vehicle's position in, new versions of the map out.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,14 @@
 #include "runtime/bus.h"
 #include "semantic_mapper/app/live_intake.h"
 #include "semantic_mapper/app/live_setup.h"
+#include "semantic_mapper/app/map_file_parts.h"
 
 namespace tern {
 
 /// After this time without a scan, HEARTBEAT says so.
 inline constexpr Duration kScanSilence{2'000'000};
 
-/// Receives scans, and gives a new version of the map when they have changed it.
+/// Receives scans and OctoMaps, and gives a new version of the map when they have changed it.
 class LiveUpdates {
  public:
   /// @param base  the map of the files. @throws std::invalid_argument as LiveMap's constructor
@@ -25,16 +26,24 @@ class LiveUpdates {
   std::optional<VoxelMap> take_new(UTime now);
   [[nodiscard]] UTime next_map() const { return next_map_; }
   [[nodiscard]] UTime next_scan() const { return intake_.next_complete(); }
-  /// The text for HEARTBEAT while scans are missing; "" while they come.
+  /// The text for HEARTBEAT while scans are missing; "" while they come, or if there is an OctoMap and no scan ever
+  /// came.
   [[nodiscard]] std::string waiting_for() const;
-  /// The text for HEARTBEAT if scans were left out in the last kScanSilence; else "".
-  [[nodiscard]] std::string overloaded() const;
+  /// The text for HEARTBEAT if scans were left out in the last kScanSilence, or the newest OctoMap is refused; else "".
+  [[nodiscard]] std::string trouble() const;
 
  private:
+  void receive(const MapFile& part);
+  /// Unseen space around the vehicle is free from the first scan or OctoMap on.
+  void begin();
+
   Bus& bus_;
   LiveSetup setup_;
   LiveMap map_;
   LiveIntake intake_;
+  MapFileParts file_parts_;
+  std::string refused_file_;  ///< why the newest MAP_FILE was not used; "": it was
+  bool has_begun_ = false;
   std::uint64_t version_;
   UTime next_map_;
   std::optional<UTime> last_scan_;

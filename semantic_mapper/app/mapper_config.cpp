@@ -146,8 +146,8 @@ Box read_extents(ConfigSection section) {
 LiveConfig read_live(ConfigSection section) {
   LiveConfig live;
   live.enabled = section.flag("enabled", live.enabled,
-                              "POINT_CLOUD and DEPTH_IMAGE change the map in flight; without `extents` it covers the "
-                              "flight box");
+                              "POINT_CLOUD, DEPTH_IMAGE and MAP_FILE change the map in flight; without `extents` it "
+                              "covers the flight box");
   live.period = Duration::from_seconds(section.number("period_s", live.period.seconds(), Range{0.1, 60.0},
                                                       "shortest time between two versions of the map, s"));
   live.range.min = section.number("min_range_m", live.range.min, Range::at_least(0.0, 100.0),

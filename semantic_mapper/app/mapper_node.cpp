@@ -93,8 +93,8 @@ void MapperNode::step(UTime now) {
 NodeHealth MapperNode::health() const {
   const std::string waiting_for = live_ ? live_->waiting_for() : "";
   if (!waiting_for.empty()) return {ProcessState::Waiting, waiting_for};
-  const std::string overloaded = live_ ? live_->overloaded() : "";
-  return {ProcessState::Ready, overloaded.empty() ? text_ : overloaded};
+  const std::string trouble = live_ ? live_->trouble() : "";
+  return {ProcessState::Ready, trouble.empty() ? text_ : trouble};
 }
 
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {

@@ -28,8 +28,8 @@ class LiveUpdates;
 /// kMapBytesPerSecond. A small map is therefore complete once a second; a large one is repeated without pause.
 /// HEARTBEAT says how long a rotation takes if it takes longer than kMapSilence.
 ///
-/// A live map changes by scans (LiveMap). A changed map is published at once as a new version, once per period at most.
-/// Each version is sent whole before the next one begins, so every receiver completes it.
+/// A live map changes by scans and OctoMaps (LiveMap). A changed map is published at once as a new version, once per
+/// period at most. Each version is sent whole before the next one begins, so every receiver completes it.
 class MapperNode final : public Node {
  public:
   /// @param live  nullopt: the map does not change

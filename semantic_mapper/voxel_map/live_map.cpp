@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/geometry/box.h"
+#include "semantic_mapper/voxel_map/octomap_voxels.h"
 #include "semantic_mapper/voxel_map/ray_walk.h"
 #include "semantic_mapper/voxel_map/standing_place.h"
 #include "semantic_mapper/voxel_map/voxel_painter.h"
@@ -85,6 +86,12 @@ void LiveMap::add(const Scan& scan) {
   for (const Vec3& end : ends) walk_ray(grid, scan.sensor, end, [this](std::int64_t voxel) { pass(voxel); });
 }
 
+void LiveMap::set_octomap(const OctoMapFile& octomap) {
+  VoxelPainter painter(base_.grid, VoxelLabel::Unknown);
+  paint_octomap(octomap, painter);
+  octomap_ = painter.finish().labels;
+}
+
 void LiveMap::free_start(const Body& body, const Vec3& p) {
   const VoxelGrid& grid = base_.grid;
   const Box near =
@@ -105,13 +112,19 @@ void LiveMap::free_start(const Body& body, const Vec3& p) {
 
 VoxelMap LiveMap::map(const Body& body, const Vec3& p) const {
   VoxelMap map = base_;
+  const auto strengthen = [&map](std::size_t i, VoxelLabel label, std::uint8_t class_index) {
+    if (strength_of(label) <= strength_of(map.labels[i])) return;
+    map.labels[i] = label;
+    map.classes[i] = class_index;
+  };
+  for (std::size_t i = 0; i < octomap_.size(); ++i) {
+    strengthen(i, octomap_[i], octomap_[i] == VoxelLabel::Occupied ? unlabelled_.class_index : std::uint8_t{0});
+  }
   for (std::size_t i = 0; i < map.labels.size(); ++i) {
     if (log_odds_[i] == kUnseen) continue;
     const bool is_occupied = log_odds_[i] >= 0;
-    const VoxelLabel label = is_occupied ? last_[i].label : VoxelLabel::Free;
-    if (strength_of(label) <= strength_of(map.labels[i])) continue;
-    map.labels[i] = label;
-    map.classes[i] = is_occupied ? last_[i].class_index : std::uint8_t{0};
+    strengthen(i, is_occupied ? last_[i].label : VoxelLabel::Free,
+               is_occupied ? last_[i].class_index : std::uint8_t{0});
   }
   for (const std::int64_t voxel : voxels_stood_in(map.grid, map.labels, body, p)) {
     if (base_.labels[idx(voxel)] == VoxelLabel::Occupied) continue;

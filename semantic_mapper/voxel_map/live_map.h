@@ -7,6 +7,7 @@
 
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
+#include "semantic_mapper/sources/octomap.h"
 #include "semantic_mapper/sources/point_cloud.h"
 #include "semantic_mapper/voxel_map/map_builder.h"
 
@@ -34,9 +35,9 @@ struct ScanRange {
 /// | that rays pass, without a point  | −0.4, probability 0.4            |
 ///
 /// They stay within −2 and 3.5, so a voxel that was occupied for long is free after nine scans through it. From 0 on a
-/// voxel is occupied; it gets the label of its last class. A voxel that no ray met is as the files say. Where both say
-/// something the stronger label is kept: occupied > repulsive > attractive > free > unknown. So scans never free what a
-/// file or a region says is occupied.
+/// voxel is occupied; it gets the label of its last class. A voxel that no ray met is as the files say, or the newest
+/// OctoMap. Where several say something the strongest label is kept: occupied > repulsive > attractive > free >
+/// unknown. So scans never free what a file, a region or the OctoMap says is occupied.
 class LiveMap {
  public:
   /// @param base  the map of the files and regions; its grid stays
@@ -48,6 +49,8 @@ class LiveMap {
 
   /// Adds a scan. Points of a scan without classes are occupied, of class "unlabelled". O(points · range/resolution).
   void add(const Scan& scan);
+  /// Sets the OctoMap of another program, in place of the one before. O(voxels + leaves).
+  void set_octomap(const OctoMapFile& octomap);
 
   /// Frees the unseen voxels within kStartMargin voxels of the box around the body at p. The vehicle starts there, and
   /// its sensors may not see above and below it.
@@ -72,6 +75,7 @@ class LiveMap {
   ScanRange range_;
   std::vector<std::int8_t> log_odds_;  // in steps; kUnseen: no ray met the voxel
   std::vector<Meaning> last_;          // of the last point in a voxel
+  std::vector<VoxelLabel> octomap_;    // of the newest OctoMap; empty: none has come
   std::vector<std::uint32_t> met_by_;  // the scan that met a voxel last: 2 n by a ray, 2 n + 1 by a point
   std::uint32_t scans_ = 0;
 };

@@ -119,6 +119,7 @@ struct Words {
     (*this)(i.header, i.at, i.sensor_id, i.range_m, i.sensor_position, i.q_WC, i.fx, i.fy, i.cx, i.cy, i.unit_m,
             i.width, i.first_row, i.depths);
   }
+  void add(const MapFile& f) { (*this)(f.header, f.at, f.format, f.origin, f.part, f.parts, f.bytes); }
   void add(const TrackSet& s) { (*this)(s.header, s.batch, s.made_at, s.confidence, s.left_out, s.tracks); }
   void add(const MapChunk& c) {
     (*this)(c.header, c.version, c.grid.origin, c.grid.resolution, c.grid.size, c.class_names, c.index, c.count,
@@ -191,6 +192,7 @@ template std::vector<std::uint64_t> words_of(const FeatureFrame&);
 template std::vector<std::uint64_t> words_of(const PositionFix&);
 template std::vector<std::uint64_t> words_of(const Odometry&);
 template std::vector<std::uint64_t> words_of(const FlightResult&);
+template std::vector<std::uint64_t> words_of(const MapFile&);
 
 template <>
 std::vector<std::int32_t> array_sizes(const UavState&) {
@@ -289,6 +291,10 @@ std::vector<std::int32_t> array_sizes(const PositionFix&) {
 template <>
 std::vector<std::int32_t> array_sizes(const Odometry&) {
   return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const MapFile& file) {
+  return {size_of(file.bytes)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const FlightResult& result) {

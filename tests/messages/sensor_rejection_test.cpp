@@ -34,6 +34,14 @@ TEST(Rejection, OfPlanHeading) {
   EXPECT_EQ(after<PlanHeading>([](auto& h) { h.interval.us = 0; }), "Time");
 }
 
+TEST(Rejection, OfMapFile) {
+  EXPECT_EQ(after<MapFile>([](auto& f) { f.at.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<MapFile>([](auto& f) { f.format = static_cast<MapFormat>(1); }), "Enumeration");
+  EXPECT_EQ(after<MapFile>([](auto& f) { f.origin.y() = kNaN; }), "Number");
+  EXPECT_EQ(after<MapFile>([](auto& f) { f.parts = 0; }), "Number");
+  EXPECT_EQ(after<MapFile>([](auto& f) { f.part = f.parts; }), "Inconsistent");
+}
+
 TEST(Rejection, OfImuBatch) {
   EXPECT_EQ(after<ImuBatch>([](auto& b) { b.samples[1].at = b.samples[0].at; }), "Time");
   EXPECT_EQ(after<ImuBatch>([](auto& b) { b.samples[1].specific_force.x() = kNaN; }), "Number");

@@ -300,9 +300,32 @@ TEST_F(Ros2Processes, AreTheVehicleAndItsDetector) {
   EXPECT_THAT(status->why_not, HasSubstr("the newest odometry is 0."));
 }
 
+/// A publisher that has sent its OctoMap before the bridge started, as octomap_server with a file does.
+TEST_F(Ros2Processes, PassALatchedOctoMapOnAgainAndAgain) {
+  auto* octomap =
+      ros.writer<octomap_msgs::msg::dds_::Octomap_PubSubType>("rt/octomap_binary", {.latched = true, .depth = 1});
+  octomap_msgs::msg::dds_::Octomap_ message;
+  message.header().frame_id("map");
+  message.binary(true);
+  message.id("OcTree");
+  message.resolution(0.05);
+  for (int k = 0; k < 100'000; ++k) message.data().push_back(static_cast<char>(k * 37));
+  octomap->write(&message);
+  std::vector<MapFile> parts;
+  bus->subscribe(kMapFile, [&](const MapFile& part) { parts.push_back(part); });
+  start({"--receive", "octomap_binary"});
+  ASSERT_TRUE(wait_for([&] { return parts.size() >= 4; })) << bridge->output << "two parts, twice";
+  EXPECT_EQ(parts[0].parts, 2);
+  EXPECT_EQ(parts[2].at, parts[0].at) << "the same file again";
+  std::string file(parts[0].bytes.begin(), parts[0].bytes.end());
+  file.append(parts[1].bytes.begin(), parts[1].bytes.end());
+  const std::string head = "# Octomap OcTree binary file\nid OcTree\nsize 1\nres 0.05\ndata\n";
+  EXPECT_EQ(file, head + std::string(message.data().begin(), message.data().end()));
+}
+
 /// A peer that floods and lies: bytes that are no messages, and messages that claim anything.
 TEST_F(Ros2Processes, SurviveHostileBytes) {
-  start({"--receive", "goal_pose,odom,following,detections,cloud"});
+  start({"--receive", "goal_pose,odom,following,detections,cloud,octomap_binary"});
   std::int64_t states = 0;
   bus->subscribe(kUavState, [&](const UavState&) { ++states; });
   nav_msgs::msg::dds_::Odometry_ odometry;
@@ -318,14 +341,19 @@ TEST_F(Ros2Processes, SurviveHostileBytes) {
   tf2_msgs::msg::dds_::TFMessage_ transforms;
   transforms.transforms().resize(2);
   std_msgs::msg::dds_::Bool_ following;
+  octomap_msgs::msg::dds_::Octomap_ octomap;
+  octomap.header().frame_id("map");
+  octomap.id("OcTree");
+  octomap.resolution(0.1);
+  octomap.data().resize(50);
   auto goal = pose_at(1.0, 1.0, 1.0);
   struct Liar {
     fast::DataWriter* writer;
     std::string bytes;
   };
   std::vector<Liar> liars;
-  const auto add = [&](auto&& type, auto& message, const std::string& topic) {
-    liars.push_back({ros.writer(fast::TypeSupport(new HostileType(type)), topic), cdr_of(type, &message)});
+  const auto add = [&](auto&& type, auto& message, const std::string& topic, Wish wish = {}) {
+    liars.push_back({ros.writer(fast::TypeSupport(new HostileType(type)), topic, wish), cdr_of(type, &message)});
   };
   add(nav_msgs::msg::dds_::Odometry_PubSubType(), odometry, "rt/odom");
   add(geometry_msgs::msg::dds_::PoseStamped_PubSubType(), goal, "rt/goal_pose");
@@ -333,6 +361,7 @@ TEST_F(Ros2Processes, SurviveHostileBytes) {
   add(sensor_msgs::msg::dds_::PointCloud2_PubSubType(), cloud, "rt/cloud");
   add(std_msgs::msg::dds_::Bool_PubSubType(), following, "rt/following");
   add(tf2_msgs::msg::dds_::TFMessage_PubSubType(), transforms, "rt/tf");
+  add(octomap_msgs::msg::dds_::Octomap_PubSubType(), octomap, "rt/octomap_binary", {.latched = true, .depth = 1});
   for (const Liar& liar : liars) ASSERT_TRUE(wait_for([&] { return FastPeer::is_matched(liar.writer); }));
   std::mt19937_64 rng(7);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng() % n); };

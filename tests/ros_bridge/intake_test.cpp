@@ -228,6 +228,57 @@ TEST_F(Intake, RefusesCloudsThatDoNotFit) {
   EXPECT_THAT(why_not(cloud), HasSubstr("big-endian"));
 }
 
+ros::Octomap some_octomap(std::size_t bytes) {
+  ros::Octomap octomap{{ros::to_ros(kNow), "map"}, true, "OcTree", 0.05, {}};
+  for (std::size_t k = 0; k < bytes; ++k) octomap.data.push_back(static_cast<std::int8_t>(k * 37));
+  return octomap;
+}
+
+TEST_F(Intake, AnOctoMapIsAFileInParts) {
+  const ros::RigidTransform moved{Eigen::Quaterniond::Identity(), Vec3(10.0, -2.0, 0.5)};
+  ASSERT_TRUE(transforms.add(transform_of("map", "odom", moved, kNow), true, kNow));
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{2}, std::size_t{59'000}, std::size_t{200'000}}) {
+    for (const bool is_binary : {true, false}) {
+      ros::Octomap octomap = some_octomap(bytes);
+      octomap.header.frame_id = "odom";
+      octomap.header.stamp = {1, 0};  // years ago
+      octomap.binary = is_binary;
+      const auto parts = read(octomap, context);
+      ASSERT_TRUE(parts) << parts.error().why;
+      std::string file;
+      for (std::size_t k = 0; k < parts->size(); ++k) {
+        MapFile part = (*parts)[k];
+        part.header.name = {1, 1};
+        EXPECT_LE(encode(part).size(), std::size_t{kMaxMessageBytes});
+        EXPECT_EQ(part.part, static_cast<int>(k));
+        EXPECT_EQ(part.parts, std::ssize(*parts));
+        EXPECT_EQ(part.at, kNow);
+        EXPECT_EQ(part.origin, Vec3(10.0, -2.0, 0.5));
+        file.append(part.bytes.begin(), part.bytes.end());
+      }
+      const std::string head = std::string(is_binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file") +
+                               "\nid OcTree\nsize " + (bytes == 0 ? "0" : "1") + "\nres 0.05\ndata\n";
+      EXPECT_EQ(file, head + std::string(octomap.data.begin(), octomap.data.end()));
+    }
+  }
+}
+
+TEST_F(Intake, RefusesOctoMapsThatTernCannotUse) {
+  ros::Octomap octomap = some_octomap(4);
+  octomap.id = "OcTreeStamped";
+  EXPECT_THAT(why_not(octomap), HasSubstr("of the kind \"OcTreeStamped\""));
+  octomap = some_octomap(4);
+  octomap.resolution = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(why_not(octomap), HasSubstr("resolution of nan"));
+  octomap = some_octomap(59'000'000);
+  EXPECT_THAT(why_not(octomap), HasSubstr("limit 59000000"));
+  const ros::RigidTransform turned{Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Vec3::UnitZ())), Vec3::Zero()};
+  ASSERT_TRUE(transforms.add(transform_of("map", "odom", turned, kNow), true, kNow));
+  octomap = some_octomap(4);
+  octomap.header.frame_id = "odom";
+  EXPECT_THAT(why_not(octomap), HasSubstr("is turned by 0.100 rad"));
+}
+
 /// A value that is accepted after mutations of a message's bytes obeys the contract of its channel.
 TEST_F(Intake, HostileBytesGiveLegalMessagesOrNone) {
   ASSERT_TRUE(transforms.add(transform_of("map", "lidar", any_pose(rng), kNow), false, kNow));
@@ -291,6 +342,28 @@ TEST_F(Intake, HostileBytesGiveLegalMessagesOrNone) {
       }
     } else if (const auto message = try_as(ros::TFMessage())) {
       for (const auto& transform : message->transforms) (void)transforms.add(transform, rng() % 2 == 0, kNow);
+    }
+  }
+  EXPECT_GT(used, mutations / 20) << "or else this shows nothing";
+}
+
+TEST_F(Intake, HostileOctoMapsGiveLegalPartsOrNone) {
+  const std::string valid = ros::encode_cdr(some_octomap(40));
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng() % n); };
+  int used = 0;
+  const int mutations = support::at_effort(100'000);
+  for (int k = 0; k < mutations; ++k) {
+    std::vector<std::uint8_t> bytes(valid.begin(), valid.end());
+    if (below(4) == 0) bytes.resize(below(bytes.size() + 20));
+    for (std::size_t n = below(4) + 1; n > 0 && !bytes.empty(); --n)
+      bytes[below(bytes.size())] = static_cast<std::uint8_t>(rng());
+    const auto message = ros::decode_cdr<ros::Octomap>(bytes);
+    const auto parts = message ? read(*message, context) : Taken<std::vector<MapFile>>();
+    for (std::size_t i = 0; parts && i < parts->size(); ++i) {
+      MapFile part = (*parts)[i];
+      part.header = {{1, 1}, kNow};
+      EXPECT_NO_THROW((void)encode(part));
+      ++used;
     }
   }
   EXPECT_GT(used, mutations / 20) << "or else this shows nothing";

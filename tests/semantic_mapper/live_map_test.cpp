@@ -132,6 +132,36 @@ TEST(LiveMap, NeverFreesWhatAFileOrRegionSaysIsOccupied) {
   EXPECT_EQ(label_at(map, in_voxel(5)), VoxelLabel::Occupied) << "a point there is stronger";
 }
 
+/// An OctoMap of voxels of 0.5 m in a row along x.
+OctoMapFile row_of(const std::vector<VoxelLabel>& labels) {
+  OctoMapFile octomap;
+  octomap.resolution = 0.5;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == VoxelLabel::Unknown) continue;
+    octomap.leaves.push_back({{static_cast<std::int32_t>(i), 0, 0}, 1, labels[i] == VoxelLabel::Occupied});
+  }
+  return octomap;
+}
+
+TEST(LiveMap, TheNewestOctoMapCountsUnlessAFileOrAScanSaysMore) {
+  using enum VoxelLabel;
+  VoxelMap base = unknown_map({10, 1, 1});
+  base.labels[1] = Occupied;
+  LiveMap map(base, {}, kRange);
+  map.set_octomap(row_of({Free, Free, Occupied, Unknown, Occupied}));
+  const auto labels = [&] {
+    const VoxelMap all = now(map);
+    return std::vector<VoxelLabel>(all.labels.begin(), all.labels.begin() + 5);
+  };
+  EXPECT_EQ(labels(), (std::vector{Free, Occupied, Occupied, Unknown, Occupied}));
+  EXPECT_EQ(now(map).class_names.at(now(map).classes[2]), kUnlabelled);
+  map.add(scan_to({in_voxel(8)}, kSensor));
+  EXPECT_EQ(labels(), (std::vector{Free, Occupied, Occupied, Free, Occupied})) << "a scan frees none of its voxels";
+  map.set_octomap(row_of({Free, Free, Free, Free, Free, Free, Free, Free, Free}));
+  EXPECT_EQ(labels(), (std::vector{Free, Occupied, Free, Free, Free}));
+  EXPECT_EQ(label_at(map, in_voxel(8)), Occupied) << "nor does an OctoMap free those of scans";
+}
+
 TEST(LiveMap, PointsOfAClassGetItsLabelAndThoseWithoutAMeaningMarkNothing) {
   ClassMeanings classes;
   classes[5] = ClassMeaning{"high_vegetation", VoxelLabel::Attractive};

@@ -8,6 +8,7 @@
 #include "runtime/virtual_runner.h"
 #include "semantic_mapper/app/live_intake.h"
 #include "semantic_mapper/app/mapper_node.h"
+#include "tests/support/cloud_files.h"
 #include "tests/support/voxel_maps.h"
 
 namespace tern {
@@ -149,6 +150,62 @@ TEST_F(LiveMapperTest, ADepthImageBecomesOccupiedAndFreeVoxels) {
   EXPECT_EQ(label_at({6.1, 3.0, 0.6}), VoxelLabel::Occupied);
   EXPECT_EQ(label_at({3, 5, 1}), VoxelLabel::Free);
   EXPECT_EQ(label_at({9, 5, 1}), VoxelLabel::Unknown);
+}
+
+/// The parts of an OctoMap of 16³ voxels of 0.5 m whose lower corner is at `origin`: free, but for one voxel.
+std::vector<MapFile> octomap_at(UTime at, const Vec3& origin, const Eigen::Vector3i& occupied, std::size_t part_bytes) {
+  constexpr int kSide = 16;
+  std::vector<VoxelLabel> labels(kSide * kSide * kSide, VoxelLabel::Free);
+  labels[static_cast<std::size_t>(occupied.x() + kSide * (occupied.y() + kSide * occupied.z()))] = VoxelLabel::Occupied;
+  const support::FileBytes file = support::octomap_file(labels, kSide, true);
+  std::vector<MapFile> parts;
+  for (std::size_t k = 0; k < file.size(); k += part_bytes) {
+    MapFile part;
+    part.at = at;
+    part.origin = origin;
+    part.part = static_cast<std::int32_t>(parts.size());
+    part.parts = static_cast<std::int32_t>((file.size() + part_bytes - 1) / part_bytes);
+    const auto begin = file.begin() + static_cast<std::ptrdiff_t>(k);
+    part.bytes.assign(begin, begin + static_cast<std::ptrdiff_t>(std::min(part_bytes, file.size() - k)));
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+TEST_F(LiveMapperTest, AnOctoMapInPartsBecomesTheMapAndTheNextOneTakesItsPlace) {
+  run(0.1);
+  auto parts = octomap_at(runner_.now(), Vec3(1, 1, 0), {8, 8, 2}, 50);
+  ASSERT_GT(parts.size(), 2u);
+  std::swap(parts[0], parts[1]);
+  for (const MapFile& part : parts) runner_.observer().publish(channels::kMapFile, part);
+  run(1.2);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  EXPECT_EQ(label_at({5.1, 5.1, 1.1}), VoxelLabel::Occupied);
+  EXPECT_EQ(label_at({4.9, 5.1, 1.1}), VoxelLabel::Free);
+  EXPECT_EQ(label_at({9.5, 5.1, 1.1}), VoxelLabel::Unknown);
+  const std::size_t versions = maps_.size();
+  for (const MapFile& part : parts) runner_.observer().publish(channels::kMapFile, part);
+  run(2.6);
+  EXPECT_EQ(maps_.size(), versions) << "the same file again";
+  EXPECT_EQ(node_->health().waiting_for, "") << "an OctoMap stays valid";
+  for (const MapFile& part : octomap_at(runner_.now(), Vec3(1, 1, 0), {2, 2, 2}, 50))
+    runner_.observer().publish(channels::kMapFile, part);
+  run(1.2);
+  EXPECT_EQ(label_at({5.1, 5.1, 1.1}), VoxelLabel::Free);
+  EXPECT_EQ(label_at({2.1, 2.1, 1.1}), VoxelLabel::Occupied);
+}
+
+TEST_F(LiveMapperTest, ABrokenOctoMapChangesNothingAndIsReported) {
+  for (const MapFile& part : octomap_at(runner_.now(), Vec3(1, 1, 0), {8, 8, 2}, 1'000))
+    runner_.observer().publish(channels::kMapFile, part);
+  run(1.2);
+  auto broken = octomap_at(runner_.now(), Vec3(1, 1, 0), {2, 2, 2}, 1'000);
+  broken.back().bytes.resize(broken.back().bytes.size() - 3);
+  for (const MapFile& part : broken) runner_.observer().publish(channels::kMapFile, part);
+  run(1.2);
+  EXPECT_EQ(label_at({5.1, 5.1, 1.1}), VoxelLabel::Occupied);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("an OctoMap is not used: MAP_FILE, offset "));
 }
 
 TEST(LiveIntake, PlacesPixelsByThePinholeModel) {

@@ -1,4 +1,5 @@
 #include "core/world/inertial.h"
+#include "core/world/map_file.h"
 #include "core/world/plan_heading.h"
 #include "core/world/sighting.h"
 #include "tests/support/generator_parts.h"
@@ -38,6 +39,19 @@ SightingSet random_message(Rng& rng, Fill fill) {
     sighting.points = random_integer(rng, 1, 10'000);
   }
   return set;
+}
+
+template <>
+MapFile random_message(Rng& rng, Fill fill) {
+  MapFile file;
+  file.header = header(rng);
+  file.at = time(rng);
+  file.origin = position(rng);
+  file.parts = random_integer(rng, 1, kMaxMapFileParts);
+  file.part = random_integer(rng, 0, file.parts - 1);
+  file.bytes.resize(static_cast<std::size_t>(count(rng, fill, 0, kMaxMapFileBytesPerMessage)));
+  for (std::int8_t& byte : file.bytes) byte = static_cast<std::int8_t>(random_integer(rng, -128, 127));
+  return file;
 }
 
 template <>
