@@ -5,13 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <memory>
 #include <random>
 
 #include "tests/dimos/dimos_peer.h"
-#include "tests/support/child_process.h"
-#include "tests/support/network_end.h"
+#include "tests/support/bridge_process.h"
 
 namespace tern::dimos {
 namespace {
@@ -77,51 +74,21 @@ class Drone {
   int steps_ = 0;
 };
 
-class DimosFlight : public ::testing::Test, protected NetworkEnd {
+class DimosFlight : public BridgeFlight {
  protected:
-  DimosFlight() {
-    bus->subscribe(kPlan, [this](const Plan& plan) {
-      if (plan.outcome != PlanOutcome::NoPlan) plans[plan.trajectory.start.us] = plan.trajectory;
-    });
-    for (const char* program : {TERN_EXECUTOR, TERN_PLANNER, TERN_PREDICTOR, TERN_MAPPER}) {
-      children.push_back(std::make_unique<Child>(std::vector<std::string>{program, "--config", TERN_DRONE}));
-    }
-    start_module();
-  }
-  void TearDown() override {
-    children.push_back(std::move(module));
-    for (const auto& child : children) {
-      if (!HasFailure()) continue;
-      child->signal(SIGTERM);
-      child->wait();
-      std::cout << child->output;
-    }
-  }
-  void start_module() {
-    module = std::make_unique<Child>(std::vector<std::string>{
-        TERN_DIMOS, "--config", TERN_DRONE, "--dimos_url", kDimosUrl, "--odom", kOdomChannel, "--detections",
-        kDetectionsChannel, "--goal_request", kGoalChannel, "--cmd_vel", kTwistChannel, "--path", kPathChannel});
+  DimosFlight() : BridgeFlight({TERN_EXECUTOR, TERN_PLANNER, TERN_PREDICTOR, TERN_MAPPER}, TERN_DRONE) { start(); }
+  void start() {
+    start_bridge({TERN_DIMOS, "--config", TERN_DRONE, "--dimos_url", kDimosUrl, "--odom", kOdomChannel, "--detections",
+                  kDetectionsChannel, "--goal_request", kGoalChannel, "--cmd_vel", kTwistChannel, "--path",
+                  kPathChannel});
   }
   /// Lets the drone live until the condition holds.
   bool until(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      pollfd fd{lcm->getFileno(), POLLIN, 0};
-      poll(&fd, 1, 2);
-      drain(*lcm, 1'000);
-      bus->rethrow();
-      drone.step(clock.now());
-    }
-    return true;
+    return live_until([this] { drone.step(clock.now()); }, condition);
   }
-  [[nodiscard]] std::string last_words() const { return beats.empty() ? "no heartbeat" : beats.back().waiting_for; }
 
   DimosPeer dimos;
   Drone drone{dimos};
-  std::vector<std::unique_ptr<Child>> children;
-  std::unique_ptr<Child> module;
-  std::map<std::int64_t, TimedSpline> plans;  ///< by the time of their start, µs
 };
 
 TEST_F(DimosFlight, ADroneFliesAroundWhatItDetectsToTheGoalOfDimos) {
@@ -136,11 +103,11 @@ TEST_F(DimosFlight, ADroneFliesAroundWhatItDetectsToTheGoalOfDimos) {
     return drone.p.x() > 5.0;
   })) << last_words();
   EXPECT_GT(drone.v.norm(), 0.5) << "it flies";
-  module->signal(SIGTERM);
+  bridge->signal(SIGTERM);
   ASSERT_TRUE(until([&] { return drone.v.norm() < 0.01; })) << "it comes to rest";
-  EXPECT_EQ(module->wait(), 0);
+  EXPECT_EQ(bridge->wait(), 0);
   EXPECT_LT(drone.p.x(), 12.0);
-  start_module();
+  start();
   ASSERT_TRUE(until([&] { return (drone.p - goal).norm() < 0.1 && drone.v.norm() < 0.05; })) << last_words();
   EXPECT_GT(drone.nearest, 0.3) << "the body's radius";
 

@@ -8,9 +8,8 @@
 #include <random>
 
 #include "tests/dimos/dimos_peer.h"
-#include "tests/support/child_process.h"
+#include "tests/support/bridge_process.h"
 #include "tests/support/effort.h"
-#include "tests/support/network_end.h"
 #include "tests/support/straight_plan.h"
 
 namespace tern::dimos {
@@ -19,42 +18,19 @@ namespace {
 using ::testing::HasSubstr;
 using namespace channels;
 
-class DimosProcesses : public ::testing::Test, protected NetworkEnd {
+class DimosProcesses : public BridgeProcess {
  protected:
-  void TearDown() override {
-    if (!HasFailure() || !module) return;
-    module->signal(SIGTERM);
-    module->wait();
-    std::cout << module->output;
-  }
   void start(std::vector<std::string> more) {
     more.insert(more.begin(), {TERN_DIMOS, "--dimos_url", kDimosUrl});
-    module = std::make_unique<Child>(more);
-    ASSERT_TRUE(wait_until_ready());
+    start_bridge_and_wait(more);
   }
-  /// Does something at 50 Hz until the condition holds.
-  bool repeat_until(const std::function<void()>& what, const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
-    for (UTime next = clock.now(); !condition();) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      pollfd fd{lcm->getFileno(), POLLIN, 0};
-      poll(&fd, 1, 2);
-      drain(*lcm, 1'000);
-      bus->rethrow();
-      dimos.poll();
-      if (clock.now() < next) continue;
-      what();
-      next = clock.now() + Duration{20'000};
-    }
-    return true;
-  }
+  void poll_peer() override { dimos.poll(); }
   bool says(const std::string& words) {
     return std::any_of(beats.begin(), beats.end(),
                        [&](const Heartbeat& beat) { return beat.waiting_for.find(words) != std::string::npos; });
   }
 
   DimosPeer dimos;
-  std::unique_ptr<Child> module;
 };
 
 TEST_F(DimosProcesses, SendPathsAndMarkersInTheWorldOfDimos) {
@@ -62,13 +38,7 @@ TEST_F(DimosProcesses, SendPathsAndMarkersInTheWorldOfDimos) {
   auto& drawn = dimos.keep<visualization_msgs::MarkerArray>(kMarkersChannel);
   start({"--path", kPathChannel, "--markers_plan", kMarkersChannel, "--set", "dimos.world.x=10", "--set",
          "dimos.world.yaw_deg=90"});
-  HorizonRequest request;
-  request.id = 1;
-  request.t_s = clock.now();
-  request.committed.start = request.t_s;
-  request.flight_box = box_around(Vec3::Zero(), Vec3::Constant(100.0));
-  Plan plan = straight_plan(request, Vec3(20.0, 10.0, 3.0));
-  plan.inputs.request = {1, 1};
+  const Plan plan = some_plan(clock.now());
   ASSERT_TRUE(repeat_until([&] { bus->publish(kPlan, plan); }, [&] { return !paths.empty() && !drawn.empty(); }));
   const nav_msgs::Path& path = paths.back();
   EXPECT_EQ(path.header.frame_id, "world");
@@ -196,8 +166,8 @@ TEST_F(DimosProcesses, FlySetpointsByVelocitiesAndStopWhenTheyEnd) {
   ASSERT_TRUE(repeat_until(send, [&] { return vec(twists.back().linear).isZero(); }));
   sends_setpoints = true;
   ASSERT_TRUE(repeat_until(send, [&] { return std::abs(twists.back().linear.x - 1.5) < 1e-9; }));
-  module->signal(SIGTERM);
-  EXPECT_EQ(module->wait(), 0);
+  bridge->signal(SIGTERM);
+  EXPECT_EQ(bridge->wait(), 0);
   ASSERT_TRUE(wait_for([&] {
     dimos.poll();
     return vec(twists.back().linear).isZero();
@@ -270,7 +240,7 @@ TEST_F(DimosProcesses, SurviveHostileBytes) {
   states = 0;
   ASSERT_TRUE(
       repeat_until([&] { dimos.send(kOdomChannel, pose_at(clock.now(), Vec3::Zero())); }, [&] { return states > 5; }));
-  EXPECT_FALSE(module->has_ended()) << module->output;
+  EXPECT_FALSE(bridge->has_ended()) << bridge->output;
 }
 
 TEST_F(DimosProcesses, SayWhichOptionIsWrong) {

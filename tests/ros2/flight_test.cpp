@@ -5,12 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <memory>
 
 #include "tests/ros2/fast_peer.h"
-#include "tests/support/child_process.h"
-#include "tests/support/network_end.h"
+#include "tests/support/bridge_process.h"
 
 namespace tern::ros2 {
 namespace {
@@ -96,54 +93,23 @@ class Robot {
   UTime next_, told_;
 };
 
-class Ros2Flight : public ::testing::Test, protected NetworkEnd {
+class Ros2Flight : public BridgeFlight {
  protected:
-  Ros2Flight() {
-    bus->subscribe(kPlan, [this](const Plan& plan) {
-      if (plan.outcome != PlanOutcome::NoPlan) plans[plan.trajectory.start.us] = plan.trajectory;
-    });
-    for (const char* program : {TERN_EXECUTOR, TERN_PLANNER, TERN_PREDICTOR, TERN_MAPPER}) {
-      children.push_back(std::make_unique<Child>(std::vector<std::string>{program, "--config", TERN_ROBOT}));
-    }
-    start_bridge();
-  }
-  void TearDown() override {
-    children.push_back(std::move(bridge));
-    for (const auto& child : children) {
-      if (!HasFailure()) continue;
-      child->signal(SIGTERM);
-      child->wait();
-      std::cout << child->output;
-    }
-  }
-  void start_bridge() {
-    bridge = std::make_unique<Child>(std::vector<std::string>{TERN_ROS2, "--config", TERN_ROBOT, "--domain",
-                                                              std::to_string(kDomain), "--receive",
-                                                              "odom,detections,goal_pose"});
+  Ros2Flight() : BridgeFlight({TERN_EXECUTOR, TERN_PLANNER, TERN_PREDICTOR, TERN_MAPPER}, TERN_ROBOT) { start(); }
+  void start() {
+    start_bridge({TERN_ROS2, "--config", TERN_ROBOT, "--domain", std::to_string(kDomain), "--receive",
+                  "odom,detections,goal_pose"});
   }
   /// Lets the robot live until the condition holds.
   bool until(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      pollfd fd{lcm->getFileno(), POLLIN, 0};
-      poll(&fd, 1, 2);
-      drain(*lcm, 1'000);
-      bus->rethrow();
-      robot.step(clock.now());
-    }
-    return true;
+    return live_until([this] { robot.step(clock.now()); }, condition);
   }
   [[nodiscard]] bool rests_at(const Vec3& place) const {
     return (robot.p - place).norm() < 0.05 && robot.v.norm() < 0.01;
   }
-  std::string last_words() const { return beats.empty() ? "no heartbeat" : beats.back().waiting_for; }
 
   FastPeer ros{kDomain};
   Robot robot{ros};
-  std::vector<std::unique_ptr<Child>> children;
-  std::unique_ptr<Child> bridge;
-  std::map<std::int64_t, TimedSpline> plans;  ///< by the time of their start, µs
 };
 
 TEST_F(Ros2Flight, ARobotFliesAroundWhatItDetectsToTheGoalOfRos) {
@@ -167,7 +133,7 @@ TEST_F(Ros2Flight, ARobotFliesAroundWhatItDetectsToTheGoalOfRos) {
   EXPECT_EQ(bridge->wait(), -SIGKILL);
   ASSERT_TRUE(until([&] { return robot.v.norm() < 0.01; })) << "it comes to rest";
   EXPECT_LT(robot.p.x(), 24.0);
-  start_bridge();
+  start();
   ASSERT_TRUE(until([&] { return rests_at(Vec3(25.0, 0.0, 1.5)); })) << last_words();
   EXPECT_GT(robot.nearest, 0.1) << "the body's radius";
 

@@ -8,9 +8,8 @@
 #include <random>
 
 #include "tests/ros2/fast_peer.h"
-#include "tests/support/child_process.h"
+#include "tests/support/bridge_process.h"
 #include "tests/support/effort.h"
-#include "tests/support/network_end.h"
 #include "tests/support/straight_plan.h"
 
 namespace tern::ros2 {
@@ -21,29 +20,11 @@ using namespace channels;
 
 constexpr int kDomain = 7;
 
-class Ros2Processes : public ::testing::Test, protected NetworkEnd {
+class Ros2Processes : public BridgeProcess {
  protected:
-  void TearDown() override {
-    if (!HasFailure() || !bridge) return;
-    bridge->signal(SIGTERM);
-    bridge->wait();
-    std::cout << bridge->output;
-  }
   void start(std::vector<std::string> more = {}) {
     more.insert(more.begin(), {TERN_ROS2, "--domain", std::to_string(kDomain)});
-    bridge = std::make_unique<Child>(more);
-    ASSERT_TRUE(wait_until_ready());
-  }
-  /// Does something again and again until the condition holds.
-  bool repeat_until(const std::function<void()>& what, const std::function<bool()>& condition) {
-    UTime next = clock.now();
-    return wait_for([&] {
-      if (clock.now() >= next) {
-        what();
-        next = clock.now() + Duration{20'000};
-      }
-      return condition();
-    });
+    start_bridge_and_wait(more);
   }
   void stamp(std_msgs::msg::dds_::Header_& header) const {
     const std::int64_t now_us = clock.now().us;
@@ -72,20 +53,7 @@ class Ros2Processes : public ::testing::Test, protected NetworkEnd {
     return state;
   }
 
-  /// A plan of 8 m, from rest to rest.
-  [[nodiscard]] Plan some_plan() const {
-    HorizonRequest request;
-    request.id = 1;
-    request.t_s = clock.now();
-    request.committed.start = request.t_s;
-    request.flight_box = box_around(Vec3::Zero(), Vec3::Constant(100.0));
-    Plan plan = straight_plan(request, Vec3(20.0, 10.0, 3.0));
-    plan.inputs.request = {1, 1};
-    return plan;
-  }
-
   FastPeer ros{kDomain};
-  std::unique_ptr<Child> bridge;
 };
 
 TEST_F(Ros2Processes, SendStatesPlansAndDrawingsAsRosKnowsThem) {
@@ -113,7 +81,7 @@ TEST_F(Ros2Processes, SendStatesPlansAndDrawingsAsRosKnowsThem) {
   EXPECT_NEAR(v.y(), -std::sin(0.8) * 2.0 + std::cos(0.8) * 1.0, 1e-12);
   EXPECT_EQ(v.z(), -0.5);
 
-  const Plan plan = some_plan();
+  const Plan plan = some_plan(clock.now());
   std::optional<Path_> path;
   std::optional<trajectory_msgs::msg::dds_::MultiDOFJointTrajectory_> trajectory;
   std::optional<visualization_msgs::msg::dds_::MarkerArray_> drawn;

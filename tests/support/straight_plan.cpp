@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/geometry/box.h"
+
 namespace tern {
 namespace {
 
@@ -69,6 +71,17 @@ Plan straight_plan(const HorizonRequest& request, const Vec3& goal, const Straig
   if (!trajectory) return keep(std::move(plan), request, PlanReason::Infeasible);
   plan.outcome = PlanOutcome::Optimized;
   plan.trajectory = *trajectory;
+  return plan;
+}
+
+Plan some_plan(UTime t_s) {
+  HorizonRequest request;
+  request.id = 1;
+  request.t_s = t_s;
+  request.committed.start = request.t_s;
+  request.flight_box = box_around(Vec3::Zero(), Vec3::Constant(100.0));
+  Plan plan = straight_plan(request, Vec3(20.0, 10.0, 3.0));
+  plan.inputs.request = {1, 1};
   return plan;
 }
 

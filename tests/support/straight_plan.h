@@ -22,4 +22,7 @@ struct StraightPlanOptions {
 /// * no duration obeys the limits (Infeasible).
 Plan straight_plan(const HorizonRequest& request, const Vec3& goal, const StraightPlanOptions& options = {});
 
+/// Returns a plan of 8 m that starts in the origin at t_s, as a planner sends it.
+Plan some_plan(UTime t_s);
+
 }  // namespace tern
