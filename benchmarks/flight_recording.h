@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scenario/scenario.h"
 #include "core/world/flight_result.h"
-#include "core/world/scenario.h"
 #include "planner/planner.h"
 #include "runtime/command_line.h"
 

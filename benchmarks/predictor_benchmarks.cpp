@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "predictor/tracking/tracker.h"
 
 namespace tern {

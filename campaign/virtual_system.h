@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "runtime/virtual_runner.h"
 
 namespace tern {

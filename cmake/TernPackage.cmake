@@ -48,10 +48,10 @@ endfunction()
 
 # tern::core stands for all of core/; tern::base, tern::geometry and so on are its parts.
 add_library(tern_core INTERFACE)
-target_link_libraries(tern_core INTERFACE tern_base tern_convex_hull tern_drawing tern_geometry tern_splines tern_world)
+target_link_libraries(tern_core INTERFACE tern_base tern_convex_hull tern_drawing tern_geometry tern_scenario tern_splines tern_wire tern_world)
 
 tern_component(core ABOUT "geometry, splines, and the values of Tern's messages"
-  LIBRARIES tern_core tern_drawing tern_world tern_geometry tern_convex_hull tern_splines tern_base
+  LIBRARIES tern_core tern_drawing tern_scenario tern_world tern_wire tern_geometry tern_convex_hull tern_splines tern_base
   HEADERS core
   REQUIRES eigen3 fmt LINKS -lglpk -lmpfr -lgmp)
 # Generated types are used within messages/ alone.

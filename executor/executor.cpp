@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "core/wire/message_limits.h"
 #include "core/world/flyable.h"
-#include "core/world/message_limits.h"
 #include "executor/commanded_motion.h"
 
 namespace tern {

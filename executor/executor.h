@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "core/base/knobs.h"
+#include "core/scenario/scenario.h"
 #include "core/world/goal.h"
-#include "core/world/scenario.h"
 #include "executor/adoption.h"
 #include "executor/committed_trajectory.h"
 #include "executor/tube.h"

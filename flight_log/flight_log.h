@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/world/header.h"
-#include "core/world/health.h"
-#include "core/world/message_losses.h"
+#include "core/wire/header.h"
+#include "core/wire/health.h"
+#include "core/wire/message_losses.h"
 #include "flight_log/log_reader.h"
 #include "messages/codec.h"
 

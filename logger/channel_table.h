@@ -8,9 +8,9 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-#include "core/world/header.h"
-#include "core/world/health.h"
-#include "core/world/message_losses.h"
+#include "core/wire/header.h"
+#include "core/wire/health.h"
+#include "core/wire/message_losses.h"
 
 namespace tern {
 

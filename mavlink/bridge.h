@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "executor/commanded_motion.h"
 #include "mavlink/autopilot.h"
 #include "mavlink/bridge_config.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "mavlink/autopilot.h"
 #include "mavlink/bridge_config.h"
 #include "mavlink/tilt_ramp.h"

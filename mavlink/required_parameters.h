@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "mavlink/autopilot.h"
 
 namespace tern::mavlink {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "core/world/resampling.h"
 #include "messages/codec.h"
 

@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "core/base/time.h"
+#include "core/wire/health.h"
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/inertial.h"
 #include "core/world/map_file.h"

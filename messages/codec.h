@@ -7,7 +7,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "core/world/health.h"
+#include "core/wire/health.h"
 #include "messages/channels.h"
 
 namespace tern {

@@ -14,7 +14,7 @@
 #include <optional>
 #include <span>
 
-#include "core/world/header.h"
+#include "core/wire/header.h"
 #include "messages/codec.h"
 
 namespace tern {

@@ -14,8 +14,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/world/header.h"
-#include "core/world/health.h"
+#include "core/wire/header.h"
+#include "core/wire/health.h"
 #include "messages/codec.h"
 #include "messages/trailer.h"
 

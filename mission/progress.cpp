@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 
 namespace tern::mission {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <set>
 
-#include "core/world/header.h"
+#include "core/wire/header.h"
 
 namespace tern {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/world/setting.h"
+#include "core/scenario/setting.h"
 #include "monitor/request_ledger.h"
 
 namespace tern {

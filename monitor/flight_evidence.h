@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/wire/health.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
 #include "core/world/track.h"

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "core/scenario/scenario.h"
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
 #include "core/world/replan_samples.h"
-#include "core/world/scenario.h"
 #include "core/world/vehicle.h"
 #include "monitor/duplicate_filter.h"
 #include "monitor/estimate_watch.h"

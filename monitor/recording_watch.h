@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/world/health.h"
+#include "core/wire/health.h"
 
 namespace tern {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "planner/safety/swept_obstacles.h"
 
 namespace tern {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "planner/optimization/trajectory_problem.h"
 #include "planner/plan_workspace.h"
 #include "planner/problem/tuning.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "planner/problem/tuning.h"
 
 namespace tern {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "planner/duration.h"
 #include "planner/global_path/local_goal.h"
 #include "planner/problem/tuning.h"

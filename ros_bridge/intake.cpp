@@ -10,7 +10,7 @@
 #include <set>
 
 #include "core/base/digest.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "ros_bridge/stamps.h"
 
 namespace tern::ros {

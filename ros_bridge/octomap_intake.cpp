@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "ros_bridge/intake.h"
 
 namespace tern::ros {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "ros_bridge/stamps.h"
 
 namespace tern::ros {

@@ -10,9 +10,9 @@
 #include <tl/expected.hpp>
 #include <utility>
 
-#include "core/world/header.h"
-#include "core/world/health.h"
-#include "core/world/recent_senders.h"
+#include "core/wire/header.h"
+#include "core/wire/health.h"
+#include "core/wire/recent_senders.h"
 #include "messages/codec.h"
 #include "runtime/keys.h"
 

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "core/world/names.h"
 #include "messages/refused_field.h"
 #include "runtime/authentication.h"

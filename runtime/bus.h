@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/world/health.h"
+#include "core/wire/health.h"
 #include "messages/codec.h"
 #include "runtime/claimed_time.h"
 #include "runtime/clock.h"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "core/wire/health.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/inertial.h"
 #include "core/world/map_file.h"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/world/health.h"
-#include "core/world/message_limits.h"
+#include "core/wire/health.h"
+#include "core/wire/message_limits.h"
 
 namespace tern {
 

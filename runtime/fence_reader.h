@@ -1,7 +1,7 @@
 // Reads `world.origin` and `world.fences` of a scenario.
 #pragma once
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "runtime/config.h"
 
 namespace tern {

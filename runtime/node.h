@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/base/time.h"
-#include "core/world/health.h"
+#include "core/wire/health.h"
 
 namespace tern {
 

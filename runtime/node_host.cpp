@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/base/digest.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "messages/codec.h"
 #include "runtime/log.h"
 #include "runtime/platform.h"

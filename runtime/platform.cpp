@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 
 namespace tern {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "runtime/bus.h"
 #include "runtime/clock_exchange.h"
 #include "runtime/command_line.h"

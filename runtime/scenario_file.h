@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "runtime/config.h"
 
 namespace tern {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
-#include "core/world/header.h"
-#include "core/world/health.h"
-#include "core/world/message_losses.h"
+#include "core/wire/header.h"
+#include "core/wire/health.h"
+#include "core/wire/message_losses.h"
 
 namespace tern {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "simulator/worlds/world.h"
 
 namespace tern {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "planner/problem/planner_config.h"
 #include "predictor/app/predictor_config.h"
 #include "simulator/app/simulator_config.h"

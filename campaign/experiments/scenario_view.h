@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "campaign/flight_inputs.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "semantic_mapper/app/cloud_report.h"
 #include "simulator/worlds/world.h"
 

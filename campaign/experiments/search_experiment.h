@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/plane.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/world/header.h"
+#include "core/wire/header.h"
 
 namespace tern {
 

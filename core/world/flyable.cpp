@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "core/wire/message_limits.h"
 #include "core/world/body.h"
-#include "core/world/message_limits.h"
 #include "core/world/thrust.h"
 
 namespace tern {

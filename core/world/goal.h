@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/base/types.h"
-#include "core/world/header.h"
+#include "core/wire/header.h"
 
 namespace tern {
 

@@ -8,8 +8,8 @@
 
 #include "core/base/types.h"
 #include "core/geometry/plane.h"
-#include "core/world/header.h"
-#include "core/world/message_limits.h"
+#include "core/wire/header.h"
+#include "core/wire/message_limits.h"
 #include "core/world/vehicle.h"
 
 namespace tern {

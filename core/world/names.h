@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
+#include "core/wire/health.h"
 #include "core/world/flight_result.h"
 #include "core/world/flyable.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 
 namespace tern {
 namespace {

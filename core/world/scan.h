@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/types.h"
-#include "core/world/header.h"
+#include "core/wire/header.h"
 
 namespace tern {
 

@@ -9,7 +9,7 @@
 
 #include "core/base/types.h"
 #include "core/splines/piecewise_cubic.h"
-#include "core/world/header.h"
+#include "core/wire/header.h"
 
 namespace tern {
 

@@ -8,7 +8,7 @@
 #include "core/base/time.h"
 #include "core/base/types.h"
 #include "core/splines/clamped_spline.h"
-#include "core/world/header.h"
+#include "core/wire/header.h"
 
 namespace tern {
 

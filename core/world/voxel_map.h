@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/base/types.h"
-#include "core/world/header.h"
+#include "core/wire/header.h"
 
 namespace tern {
 

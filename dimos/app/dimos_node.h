@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "dimos/app/dimos_network.h"
 #include "dimos/app/outlet.h"
 #include "dimos/dimos_config.h"

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "core/scenario/scenario.h"
+#include "core/wire/health.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
-#include "core/world/scenario.h"
 #include "core/world/vehicle_status.h"
 #include "executor/committed_heading.h"
 #include "executor/estimate_resets.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "core/scenario/scenario.h"
 #include "core/world/goal.h"
-#include "core/world/scenario.h"
 #include "mavlink/bridge.h"
 #include "mavlink/link/link.h"
 #include "runtime/bus.h"

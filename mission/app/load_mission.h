@@ -1,7 +1,7 @@
 // Reads the mission of a scenario.
 #pragma once
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "mission/app/mission_config.h"
 #include "mission/mission.h"
 #include "mission/step_list.h"

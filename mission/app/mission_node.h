@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "core/world/voxel_map.h"
 #include "mission/app/ground_station.h"
 #include "mission/app/mission_config.h"

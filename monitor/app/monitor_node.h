@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "core/world/voxel_map.h"
 #include "monitor/app/terminal.h"
 #include "monitor/flight_watch.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "planner/planning_world.h"
 
 namespace tern {

@@ -1,7 +1,7 @@
 // Reads the scenario's `planner:` section.
 #pragma once
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "planner/problem/planner_config.h"
 #include "runtime/config.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "core/world/search_view.h"
 #include "planner/app/answer_desk.h"
 #include "planner/app/heading_desk.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "core/scenario/scenario.h"
 #include "core/world/map_progress.h"
-#include "core/world/scenario.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/worker.h"
 #include "planner/kept_field.h"

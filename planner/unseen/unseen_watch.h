@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/world/header.h"
+#include "core/wire/header.h"
 #include "core/world/sighting.h"
 #include "planner/unseen/unseen_field.h"
 #include "planner/unseen/unseen_movers.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 
 namespace tern {
 

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/world/header.h"
+#include "core/wire/header.h"
 #include "core/world/observation.h"
 #include "core/world/sighting.h"
 #include "core/world/track.h"

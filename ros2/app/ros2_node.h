@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "ros2/app/inlet.h"
 #include "ros2/app/outlet.h"
 #include "ros2/dds/participant.h"

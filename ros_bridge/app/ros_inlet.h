@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/scenario/scenario.h"
 #include "core/world/horizon.h"
-#include "core/world/scenario.h"
 #include "ros_bridge/goal_sender.h"
 #include "ros_bridge/intake.h"
 #include "ros_bridge/map_file_sender.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "core/world/names.h"
 #include "semantic_mapper/sources/class_names.h"
 

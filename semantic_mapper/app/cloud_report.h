@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "semantic_mapper/app/mapper_config.h"
 #include "semantic_mapper/voxel_map/map_builder.h"
 

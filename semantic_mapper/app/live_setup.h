@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "semantic_mapper/app/mapper_config.h"
 #include "semantic_mapper/voxel_map/live_map.h"
 

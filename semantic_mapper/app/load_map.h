@@ -1,7 +1,7 @@
 // Makes the map of a scenario.
 #pragma once
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "core/world/voxel_map.h"
 #include "semantic_mapper/app/cloud_report.h"
 #include "semantic_mapper/app/mapper_config.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "semantic_mapper/app/cloud_report.h"
 #include "semantic_mapper/app/mapper_config.h"
 #include "semantic_mapper/voxel_map/map_builder.h"

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "core/wire/message_limits.h"
 #include "core/world/map_progress.h"
-#include "core/world/message_limits.h"
 #include "messages/codec.h"
 #include "runtime/log.h"
 #include "semantic_mapper/app/live_updates.h"

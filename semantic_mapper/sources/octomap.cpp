@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "semantic_mapper/sources/byte_reader.h"
 #include "semantic_mapper/sources/point_table.h"
 

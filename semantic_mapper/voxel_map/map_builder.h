@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/scenario/region.h"
 #include "core/world/fence.h"
-#include "core/world/region.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
 #include "semantic_mapper/sources/octomap.h"

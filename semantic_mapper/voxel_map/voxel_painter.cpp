@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "semantic_mapper/voxel_map/standing_place.h"
 
 namespace tern {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/vehicle/vehicle.h"
 

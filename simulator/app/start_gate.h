@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/world/health.h"
+#include "core/wire/health.h"
 #include "runtime/clock_exchange.h"
 
 namespace tern {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/scenario/scenario.h"
 #include "core/world/inertial.h"
-#include "core/world/scenario.h"
 #include "runtime/bus.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/inertial/navigation.h"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "messages/codec.h"

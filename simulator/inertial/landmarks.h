@@ -10,7 +10,7 @@
 
 #include "core/base/knobs.h"
 #include "core/base/random.h"
-#include "core/world/region.h"
+#include "core/scenario/region.h"
 #include "simulator/inertial/camera_frame.h"
 #include "simulator/worlds/world.h"
 

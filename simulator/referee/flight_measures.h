@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scenario/scenario.h"
 #include "core/world/flight_result.h"
-#include "core/world/scenario.h"
 #include "core/world/vehicle.h"
 #include "simulator/referee/flown_piece.h"
 

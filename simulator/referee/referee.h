@@ -10,8 +10,8 @@
 
 #include "core/base/result.h"
 #include "core/base/time.h"
+#include "core/scenario/scenario.h"
 #include "core/world/flight_result.h"
-#include "core/world/scenario.h"
 #include "simulator/referee/clearance.h"
 #include "simulator/referee/flight_measures.h"
 #include "simulator/worlds/appearances.h"

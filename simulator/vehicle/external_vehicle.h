@@ -1,7 +1,7 @@
 // A vehicle that other processes fly: an autopilot behind tern-mavlink.
 #pragma once
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "simulator/vehicle/attitude.h"
 #include "simulator/vehicle/vehicle.h"
 

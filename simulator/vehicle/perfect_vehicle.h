@@ -1,7 +1,7 @@
 // A vehicle that follows its setpoints exactly.
 #pragma once
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "executor/commanded_motion.h"
 #include "simulator/vehicle/vehicle.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "executor/commanded_motion.h"
 #include "simulator/inertial/navigation.h"
 #include "simulator/vehicle/quadrotor_model.h"

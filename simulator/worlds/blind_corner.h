@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 
 namespace tern {
 

@@ -5,7 +5,7 @@
 
 #include "core/base/random.h"
 #include "core/base/result.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "simulator/worlds/recorded_tracks.h"
 
 namespace tern {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/base/random.h"
-#include "core/world/step_aside.h"
+#include "core/scenario/step_aside.h"
 #include "simulator/worlds/blind_corner.h"
 #include "simulator/worlds/obstacle.h"
 

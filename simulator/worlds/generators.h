@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 
 namespace tern {
 
@@ -34,7 +34,7 @@ struct GeneratedObstacles {
 ///  - sando_forest: x∈[5,100], y∈[−6,6], z∈[0.5,4.5]. Movers: cubes of 0.8 m on trefoils s∈[4,6], φ∈[0,3],
 ///    k = (U(2,4)/6, U(2,4)/5, U(2,4)/2). Static pillars are 0.4×0.4×4 at z = 2. Of the beams (0.4×0.4 m thick, 4 m
 ///    long) the first half, rounded down, lies along y, the others along x.
-///  - step_aside: what core/world/step_aside.h draws for (seed, start). Count and goal do not matter; nothing is
+///  - step_aside: what core/scenario/step_aside.h draws for (seed, start). Count and goal do not matter; nothing is
 ///    refused.
 ///  - blind_corner: a corridor with `count` gaps (blind_corner.h). Nothing is refused.
 ///

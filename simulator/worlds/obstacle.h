@@ -6,7 +6,7 @@
 #include "core/base/result.h"
 #include "core/base/time.h"
 #include "core/base/types.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 
 namespace tern {
 

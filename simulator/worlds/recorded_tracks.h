@@ -9,7 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/base/types.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "simulator/worlds/track_rows.h"
 
 namespace tern {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/scenario/scenario.h"
 #include "core/world/observation.h"
-#include "core/world/scenario.h"
 #include "simulator/worlds/obstacle.h"
 
 namespace tern {

@@ -58,12 +58,14 @@ one_folder GeographicLib '^GeographicLib/'
 only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 only_in '^dds/' '^ros2/dds/' 'Cyclone DDS is for one adapter'
 
-# base <- geometry <- splines <- world <- process libraries <- apps.
+# base <- geometry <- splines <- world <- scenario <- process libraries <- apps; wire stands on base alone.
 ours='^(core|geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/'
-never '^core/base/' "^core/(geometry|splines|world|drawing)/" 'base stands on nothing'
-never '^core/geometry/' '^core/(splines|world|drawing)/' 'geometry stands on base'
-never '^core/splines/' '^core/(world|drawing)/' 'splines stand on base and geometry'
-never '^core/world/' '^core/drawing/' 'what is drawn stands on world'
+never '^core/base/' "^core/(geometry|splines|wire|world|scenario|drawing)/" 'base stands on nothing'
+never '^core/geometry/' '^core/(splines|wire|world|scenario|drawing)/' 'geometry stands on base'
+never '^core/splines/' '^core/(wire|world|scenario|drawing)/' 'splines stand on base and geometry'
+never '^core/wire/' '^core/(geometry|splines|world|scenario|drawing)/' 'the wire stands on base'
+never '^core/world/' '^core/(scenario|drawing)/' 'what is drawn, and scenarios, stand on world'
+never '^core/scenario/' '^core/drawing/' 'scenarios stand on world'
 never '^core/' '^(geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
 never '^perception/' '^(messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \

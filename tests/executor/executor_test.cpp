@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "core/world/names.h"
 #include "tests/support/straight_plan.h"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "tests/messages/messages_under_test.h"
 #include "tests/support/generators.h"
 #include "tests/support/random_splines.h"

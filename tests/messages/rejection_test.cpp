@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/base/digest.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "messages/wire.h"
 #include "tern_msgs/exposure_t.hpp"
 #include "tern_msgs/flight_result_t.hpp"

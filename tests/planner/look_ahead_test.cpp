@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/geometry/box.h"
-#include "core/world/message_limits.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
+#include "core/wire/message_limits.h"
 #include "planner/duration.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"

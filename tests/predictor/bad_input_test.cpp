@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
 #include "predictor/app/predictor_node.h"

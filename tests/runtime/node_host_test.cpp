@@ -6,7 +6,7 @@
 
 #include "core/base/digest.h"
 #include "core/base/random.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "messages/codec.h"
 #include "runtime/clock_exchange.h"
 #include "runtime/lcm_network.h"

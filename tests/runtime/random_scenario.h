@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/random.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 
 namespace tern {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/base/random.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "semantic_mapper/sources/las.h"
 #include "semantic_mapper/sources/lzf.h"
 #include "semantic_mapper/sources/octomap.h"

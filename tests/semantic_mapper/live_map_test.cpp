@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/base/random.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "semantic_mapper/sources/octomap.h"
 #include "semantic_mapper/voxel_map/ray_walk.h"
 #include "semantic_mapper/voxel_map/voxel_painter.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/base/random.h"
-#include "core/world/blind_corner.h"
+#include "core/scenario/blind_corner.h"
 #include "simulator/worlds/obstacle.h"
 
 namespace tern {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "tests/support/generators.h"
 #include "tests/support/random_splines.h"
 

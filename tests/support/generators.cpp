@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/base/digest.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "core/world/vehicle_status.h"
 #include "tests/support/generator_parts.h"
 #include "tests/support/random_shares.h"

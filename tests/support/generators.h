@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/base/random.h"
+#include "core/wire/health.h"
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
 #include "core/world/scan.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "tests/support/virtual_flight.h"
 
 namespace tern::testing {

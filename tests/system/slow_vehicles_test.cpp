@@ -1,7 +1,7 @@
 // Vehicles that are slower, or hold longer, than predictions reach: they take smaller steps, and arrive.
 #include <gtest/gtest.h>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "tests/support/watched_flight.h"
 
 namespace tern::testing {

@@ -1,5 +1,5 @@
 // A stationary vehicle, gentle or quick, and boxes that come at it on declared paths: it evades wherever it can.
-#include "core/world/step_aside.h"
+#include "core/scenario/step_aside.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "core/world/setting.h"
+#include "core/scenario/setting.h"
 #include "monitor/flight_watch.h"
 #include "runtime/clock.h"
 #include "tests/support/recorded_flight.h"

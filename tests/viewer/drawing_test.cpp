@@ -11,7 +11,7 @@
 
 #include "core/drawing/predicted_hulls.h"
 #include "core/geometry/box.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "tests/viewer/known_scene.h"
 #include "viewer/bridge/scene.h"
 #include "viewer/bridge/scene_json.h"

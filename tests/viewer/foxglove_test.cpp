@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "ros_messages/types.h"
 #include "tests/support/effort.h"
 #include "viewer/foxglove/protocol.h"

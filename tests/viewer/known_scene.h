@@ -1,8 +1,8 @@
 // A flight with known contents, so tests can predict what the page shows.
 #pragma once
 
+#include "core/wire/health.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
 #include "core/world/search_view.h"

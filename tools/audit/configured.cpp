@@ -1,6 +1,6 @@
 #include "tools/audit/configured.h"
 
-#include "core/world/setting.h"
+#include "core/scenario/setting.h"
 
 namespace tern::audit {
 

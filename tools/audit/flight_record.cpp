@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/world/obstacle_names.h"
+#include "core/scenario/obstacle_names.h"
 #include "flight_log/track_sets.h"
 #include "messages/codec.h"
 

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/scenario/region.h"
+#include "core/wire/health.h"
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/inertial.h"
 #include "core/world/observation.h"
 #include "core/world/plan_heading.h"
-#include "core/world/region.h"
 #include "core/world/sighting.h"
 #include "core/world/track.h"
 #include "core/world/vehicle_status.h"

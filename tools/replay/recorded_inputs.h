@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/wire/health.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/plan_heading.h"
 #include "core/world/sighting.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "planner/planning_world.h"
 #include "planner/problem/planner_config.h"
 #include "planner/static_tracks.h"

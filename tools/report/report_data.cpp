@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "core/base/percentiles.h"
+#include "core/scenario/setting.h"
 #include "core/world/body.h"
 #include "core/world/frames.h"
 #include "core/world/names.h"
 #include "core/world/replan_samples.h"
-#include "core/world/setting.h"
 #include "runtime/clock.h"
 #include "tools/report/map_runs.h"
 

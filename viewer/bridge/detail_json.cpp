@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scenario/obstacle_names.h"
 #include "core/world/names.h"
-#include "core/world/obstacle_names.h"
 #include "messages/channels.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/scene_json.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/wire/health.h"
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/vehicle.h"
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/scenario/obstacle_names.h"
 #include "core/world/flyable.h"
-#include "core/world/obstacle_names.h"
 #include "messages/channels.h"
 #include "viewer/bridge/scene_json.h"
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "core/wire/health.h"
 #include "core/world/body_distance.h"
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
-#include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/inertial.h"
 #include "core/world/observation.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "ros_messages/types.h"
 
 namespace tern::foxglove {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "core/base/random.h"
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/world/message_limits.h"
+#include "core/wire/message_limits.h"
 #include "core/world/names.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"

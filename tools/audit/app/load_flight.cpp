@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/base/files.h"
-#include "core/world/obstacle_names.h"
+#include "core/scenario/obstacle_names.h"
 #include "monitor/app/subscribe_flight.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 #include "viewer/bridge/app/film.h"

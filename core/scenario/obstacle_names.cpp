@@ -1,4 +1,4 @@
-#include "core/world/obstacle_names.h"
+#include "core/scenario/obstacle_names.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "core/world/blind_corner.h"
+#include "core/scenario/blind_corner.h"
 
 namespace tern {
 namespace {

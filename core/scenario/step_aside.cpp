@@ -1,4 +1,4 @@
-#include "core/world/step_aside.h"
+#include "core/scenario/step_aside.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/world/setting.h"
+#include "core/scenario/setting.h"
 
 #include <algorithm>
 #include <sstream>

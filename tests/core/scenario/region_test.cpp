@@ -1,4 +1,4 @@
-#include "core/world/region.h"
+#include "core/scenario/region.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/world/message_losses.h"
+#include "core/wire/message_losses.h"
 
 namespace tern {
 

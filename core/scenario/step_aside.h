@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 #include "core/world/vehicle.h"
 
 namespace tern {

@@ -1,4 +1,4 @@
-#include "core/world/sequence_window.h"
+#include "core/wire/sequence_window.h"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "core/base/time.h"
-#include "core/world/header.h"
-#include "core/world/recent_senders.h"
-#include "core/world/sequence_window.h"
+#include "core/wire/header.h"
+#include "core/wire/recent_senders.h"
+#include "core/wire/sequence_window.h"
 
 namespace tern {
 

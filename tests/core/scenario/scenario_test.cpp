@@ -1,4 +1,4 @@
-#include "core/world/scenario.h"
+#include "core/scenario/scenario.h"
 
 #include <gtest/gtest.h>
 

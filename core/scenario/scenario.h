@@ -10,9 +10,9 @@
 
 #include "core/base/geodetic_point.h"
 #include "core/base/types.h"
+#include "core/scenario/region.h"
 #include "core/world/fence.h"
 #include "core/world/heading.h"
-#include "core/world/region.h"
 #include "core/world/vehicle.h"
 
 namespace tern {

@@ -1,4 +1,4 @@
-#include "core/world/obstacle_names.h"
+#include "core/scenario/obstacle_names.h"
 
 #include <gtest/gtest.h>
 

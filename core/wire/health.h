@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/header.h"
+#include "core/wire/header.h"
 
 namespace tern {
 
