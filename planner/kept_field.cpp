@@ -38,6 +38,15 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
   return kept.field->path_from(start) ? kept : made(key, std::move(static_boxes));
 }
 
+KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
+                          const PathObstacles& obstacles, const Vec3& start) {
+  KeptField kept = make_kept_field(key, map, obstacles.all(), start);
+  if (obstacles.resting.empty() || kept.field->path_from(start)) return kept;
+  kept = make_kept_field(key, map, obstacles.fixed, start);
+  kept.static_boxes = obstacles.all();
+  return kept;
+}
+
 bool serves(const KeptField& kept, const GoalFieldKey& wanted, const std::vector<Box>& static_boxes) {
   if (kept.key == wanted) return true;
   if (!(wanted.speed > 0.0)) return false;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/planning_world.h"
+#include "planner/static_tracks.h"
 
 namespace tern {
 
@@ -24,6 +25,11 @@ struct KeptField {
 /// field is the one for body and boxes as they are. A function of its arguments: a replay makes the same field of them.
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           std::vector<Box> static_boxes, const Vec3& start);
+
+/// The same for static and resting obstacles. If resting ones close every way from the start, the field is the one
+/// without them: they may move.
+KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
+                          const PathObstacles& obstacles, const Vec3& start);
 
 /// Whether a field also serves other inputs. It serves equal keys. With an error price it also serves a body and static
 /// boxes that its own contain, each smaller by at most 3 kFieldStep per side.

@@ -1,11 +1,26 @@
 #include "planner/static_tracks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/base/digest.h"
 
 namespace tern {
+namespace {
+
+bool is_at_rest(const Track& track) {
+  const UTime from = track.motion.start, later = std::min(from + Duration{1'000'000}, track.motion.end());
+  return (track.motion.sample(later).p - track.motion.sample(from).p).norm() <= StaticTracks::kRestingWay;
+}
+
+Box rounded_out(const Box& box) {
+  const auto down = [](double x) { return StaticTracks::kBoxStep * std::floor(x / StaticTracks::kBoxStep); };
+  const auto up = [](double x) { return StaticTracks::kBoxStep * std::ceil(x / StaticTracks::kBoxStep); };
+  return {box.min().unaryExpr(down), box.max().unaryExpr(up)};
+}
+
+}  // namespace
 
 std::uint64_t digest_of(const std::vector<Box>& boxes) {
   std::uint64_t h = kDigestSeed;
@@ -23,9 +38,24 @@ bool StaticTracks::add(const TrackSet& set) {
   if (set.header.name.sender_epoch_us != epoch_us_) {
     epoch_us_ = set.header.name.sender_epoch_us;
     first_set_ = set.batch.set;
-    changed = !by_id_.empty();
+    changed = !by_id_.empty() || !obstacles_.resting.empty();
     by_id_.clear();
+    resting_.clear();
   }
+  changed = add_static(set) || changed;
+  changed = add_resting(set) || changed;
+  if (!changed) return false;
+  obstacles_ = {};
+  for (const auto& [id, known] : by_id_) obstacles_.fixed.push_back(known.box);
+  for (const auto& [id, resting] : resting_) {
+    if (resting.box) obstacles_.resting.push_back(*resting.box);
+  }
+  digest_ = digest_of(obstacles_.all());
+  return true;
+}
+
+bool StaticTracks::add_static(const TrackSet& set) {
+  bool changed = false;
   std::set<std::int64_t> named;
   for (const Track& track : set.tracks) {
     if (track.kind != TrackKind::Static) continue;
@@ -37,10 +67,39 @@ bool StaticTracks::add(const TrackSet& set) {
   }
   const auto forgotten = std::erase_if(
       by_id_, [&](const auto& entry) { return entry.second.sets < kRememberedAfter && !named.contains(entry.first); });
-  if (!changed && forgotten == 0) return false;
-  boxes_.clear();
-  for (const auto& [id, known] : by_id_) boxes_.push_back(known.box);
-  digest_ = digest_of(boxes_);
+  return changed || forgotten > 0;
+}
+
+bool StaticTracks::add_resting(const TrackSet& set) {
+  bool changed = false;
+  for (const Track& track : set.tracks) {
+    if (track.kind != TrackKind::Estimated) continue;
+    const Vec3 place = track.motion.sample(track.motion.start).p;
+    const auto known = resting_.find(track.id);
+    const bool is_gone = known != resting_.end() && (known->second.place - place).norm() > kMovedAway;
+    if (known != resting_.end() && (is_gone || !is_at_rest(track))) {
+      changed = changed || known->second.box.has_value();
+      resting_.erase(known);
+    }
+    if (!is_at_rest(track)) continue;
+    Resting& resting = resting_.try_emplace(track.id, Resting{set.made_at, {}, place, {}}).first->second;
+    resting.seen = set.made_at;
+    if (set.made_at - resting.since >= kRestedFor) changed = take_box(track, resting) || changed;
+  }
+  std::erase_if(resting_, [&](const auto& entry) {
+    const bool is_omitted = entry.second.seen + kOmittedFor < set.made_at;
+    changed = changed || (is_omitted && entry.second.box.has_value());
+    return is_omitted;
+  });
+  return changed;
+}
+
+bool StaticTracks::take_box(const Track& track, Resting& resting) {
+  const Box hull = box_around(track.motion.sample(track.motion.start).p, track.half_extents + track.alpha.front());
+  if (!resting.box && 2.0 * track.half_extents.head<2>().maxCoeff() < kWide) return false;
+  const bool is_much_smaller = resting.box && (resting.box->sizes() - hull.sizes()).maxCoeff() > kMuchSmaller;
+  if (resting.box && resting.box->contains(hull) && !is_much_smaller) return false;
+  resting.box = rounded_out(hull);
   return true;
 }
 

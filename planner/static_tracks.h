@@ -1,14 +1,29 @@
-// A memory of static tracks. A prediction set may leave out distant ones, but a path to the goal needs them all.
+// A memory of static and of wide resting tracks. A prediction set may leave out distant ones, but a path to the goal
+// needs them all.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
+#include "core/base/time.h"
 #include "core/base/types.h"
 #include "core/world/track.h"
 
 namespace tern {
+
+/// The boxes around which a path to the goal leads, W, not inflated by the body.
+struct PathObstacles {
+  std::vector<Box> fixed;    ///< of static tracks
+  std::vector<Box> resting;  ///< of wide tracks that rest: they may move, so they count only if they leave a way
+
+  [[nodiscard]] std::vector<Box> all() const {
+    std::vector<Box> boxes = fixed;
+    boxes.insert(boxes.end(), resting.begin(), resting.end());
+    return boxes;
+  }
+};
 
 /// Keeps the newest box of every static track that one predictor has sent.
 ///
@@ -19,19 +34,36 @@ namespace tern {
 /// | a set omits another track                                 | the track is kept                   |
 /// | a set comes from another predictor (a new sender epoch)   | all tracks are forgotten            |
 ///
+/// An estimated track is *at rest* if its centre stays within kRestingWay for a second. The search of a plan finds ways
+/// around obstacles that are smaller than its reach; around wider ones, only a path to the goal does.
+///
+/// | event                                                            | effect                                    |
+/// |------------------------------------------------------------------|-------------------------------------------|
+/// | a track of at least kWide is at rest for kRestedFor              | its box with α is kept                    |
+/// | its newest box leaves the kept one, or is smaller by kMuchSmaller | the box is replaced by the newest         |
+/// | the track moves, or is farther than kMovedAway from where it was | it is forgotten, and may come to rest anew |
+/// | sets omit it for kOmittedFor                                     | it is forgotten                           |
+///
 /// A false track that appears once thus blocks a path only until the next set. The state depends on the sets alone.
 class StaticTracks {
  public:
   static constexpr int kRememberedAfter = 3;
+  static constexpr Duration kRestedFor{2'000'000}, kOmittedFor{5'000'000};
+  /// The least horizontal size of a resting track that is kept, m; more than the usual r = 4 m.
+  static constexpr double kWide = 5.0;
+  static constexpr double kRestingWay = 0.1, kMovedAway = 0.5, kMuchSmaller = 1.0;  ///< m
+  /// Boxes of resting tracks are rounded outwards to multiples of this, m. So they change seldom, and paths with them.
+  static constexpr double kBoxStep = 0.25;
 
   StaticTracks();
 
-  /// @param set  complete. @return whether boxes() changed
+  /// @param set  complete. @return whether obstacles() changed
   bool add(const TrackSet& set);
 
-  [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }  ///< in order of track id, not inflated, W
-  [[nodiscard]] std::uint64_t digest() const { return digest_; }          ///< digest_of(boxes())
-  [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }    ///< sender epoch of the predictor; 0: no set yet
+  [[nodiscard]] const PathObstacles& obstacles() const { return obstacles_; }  ///< each in order of track id
+  [[nodiscard]] const std::vector<Box>& boxes() const { return obstacles_.fixed; }
+  [[nodiscard]] std::uint64_t digest() const { return digest_; }     ///< digest_of() the fixed, then the resting boxes
+  [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }  ///< sender epoch of the predictor; 0: no set yet
   [[nodiscard]] std::int64_t first_set() const { return first_set_; }  ///< number of the predictor's first set; 0: none
 
  private:
@@ -39,8 +71,18 @@ class StaticTracks {
     Box box;
     int sets = 0;  ///< sets that contained it, at most kRememberedAfter
   };
+  struct Resting {
+    UTime since, seen;
+    Vec3 place;              // where it came to rest
+    std::optional<Box> box;  // once it has rested for kRestedFor
+  };
+  bool add_static(const TrackSet& set);
+  bool add_resting(const TrackSet& set);
+  static bool take_box(const Track& track, Resting& resting);
+
   std::map<std::int64_t, Known> by_id_;
-  std::vector<Box> boxes_;
+  std::map<std::int64_t, Resting> resting_;
+  PathObstacles obstacles_;
   std::uint64_t digest_;
   std::int64_t epoch_us_ = 0, first_set_ = 0;
 };

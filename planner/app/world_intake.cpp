@@ -153,8 +153,8 @@ void WorldIntake::prepare() {
   const GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
   const bool is_new = !world.goal || world.goal->goal.id != newest_goal_->id;
   start([this, is_new, number = goal_number_, goal = *newest_goal_, key, names, map = world.map,
-         boxes = statics_.boxes(), at = position_] {
-    const KeptField made = make_kept_field(key, map, boxes, at);
+         obstacles = statics_.obstacles(), at = position_] {
+    const KeptField made = make_kept_field(key, map, obstacles, at);
     const auto& field = made.field;
     std::string blocked;
     if (!field->path_from(at)) {
@@ -173,7 +173,7 @@ void WorldIntake::prepare() {
 
 bool WorldIntake::still_serves(const GoalProducts& goal, const GoalFieldKey& key) const {
   const std::lock_guard lock(mutex_);
-  return goal.field == kept_.field && serves(kept_, key, statics_.boxes());
+  return goal.field == kept_.field && serves(kept_, key, statics_.obstacles().all());
 }
 
 void WorldIntake::make_map(const VoxelMap& map) {

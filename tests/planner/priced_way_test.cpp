@@ -124,6 +124,20 @@ KeptField kept_for(double half, const std::vector<Box>& obstacles = {}) {
   return kept;
 }
 
+TEST(KeptField, LeadsAroundRestingTracksUnlessTheyCloseEveryWay) {
+  const PricedWorld& world = lake_at_20();
+  const Box wall(Vec3(10, -100, -10), Vec3(11, 100, 10)), board(Vec3(10, -5, -10), Vec3(11, 5, 10));
+  const auto path = [&](const PathObstacles& obstacles) {
+    return make_kept_field(with_body(0.2), world.map, obstacles, world.start).field->path_from(world.start);
+  };
+  EXPECT_FALSE(path({{wall}, {}}));
+  EXPECT_TRUE(path({{}, {wall}})) << "it may move";
+  const auto around = path({{}, {board}});
+  ASSERT_TRUE(around);
+  for (std::size_t k = 1; k < around->size(); ++k)
+    EXPECT_FALSE(segment_meets_box((*around)[k - 1], (*around)[k], board));
+}
+
 TEST(PricedWay, FieldServesWhileTheTubeChanges) {
   const KeptField kept = kept_for(0.23);
   EXPECT_NEAR(kept.key.body.max().x(), 0.3, 1e-9);

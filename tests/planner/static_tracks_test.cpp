@@ -43,6 +43,66 @@ TEST(StaticTracks, AFalseTrackThatCameOnceOrTwiceIsForgotten) {
   EXPECT_EQ(statics.boxes().size(), 1U);
 }
 
+/// A set at `at_s` with one estimated track of this width along y, which moves at this speed along x.
+TrackSet estimated(double at_s, double width, double x = 8.0, double speed = 0.0) {
+  Track track = box_at(4, x);
+  track.kind = TrackKind::Estimated;
+  track.half_extents = Vec3(0.3, 0.5 * width, 1.5);
+  track.motion.start = UTime{0} + Duration::from_seconds(at_s);
+  track.motion.pieces[0].coefficients(0, 2) = speed;
+  track.alpha.assign(1, Vec3::Constant(0.1));
+  TrackSet set = set_of(5, static_cast<std::int64_t>(1.0 + 20.0 * at_s), {track});
+  set.made_at = track.motion.start;
+  return set;
+}
+
+/// Adds sets of a track over [from_s, to_s) at 20 Hz.
+void watch(StaticTracks& statics, double from_s, double to_s, double width, double x = 8.0, double speed = 0.0) {
+  for (int k = 0; from_s + 0.05 * k < to_s - 1e-9; ++k) statics.add(estimated(from_s + 0.05 * k, width, x, speed));
+}
+
+TEST(StaticTracks, AWideTrackThatHasRestedIsAnObstacleOfThePath) {
+  StaticTracks statics;
+  watch(statics, 1.0, 2.9, 6.0);
+  EXPECT_TRUE(statics.obstacles().resting.empty());
+  EXPECT_EQ(statics.digest(), StaticTracks().digest());
+  watch(statics, 2.9, 3.2, 6.0);
+  ASSERT_EQ(statics.obstacles().resting.size(), 1U);
+  EXPECT_TRUE(statics.obstacles().resting[0].contains(Box(Vec3(7.6, -3.1, -1.6), Vec3(8.4, 3.1, 1.6))));
+  EXPECT_TRUE(statics.boxes().empty()) << "it may move";
+  const std::uint64_t digest = statics.digest();
+  watch(statics, 3.2, 5.0, 6.05);
+  EXPECT_EQ(statics.digest(), digest) << "noise changes no path";
+}
+
+TEST(StaticTracks, ARestingTrackThatBeginsToMoveLeavesThePath) {
+  StaticTracks statics;
+  watch(statics, 1.0, 4.0, 6.0);
+  ASSERT_EQ(statics.obstacles().resting.size(), 1U);
+  EXPECT_TRUE(statics.add(estimated(4.0, 6.0, 8.1, 0.5)));
+  EXPECT_TRUE(statics.obstacles().resting.empty());
+  EXPECT_EQ(statics.digest(), StaticTracks().digest());
+  watch(statics, 4.05, 5.0, 6.0, 9.0);
+  EXPECT_TRUE(statics.obstacles().resting.empty()) << "it has to rest anew";
+}
+
+TEST(StaticTracks, ANarrowRestingTrackIsLeftToTheSearch) {
+  StaticTracks statics;
+  watch(statics, 1.0, 5.0, 4.0);
+  EXPECT_TRUE(statics.obstacles().resting.empty());
+}
+
+TEST(StaticTracks, ARestingTrackThatSetsOmitIsForgottenAfterAWhile) {
+  StaticTracks statics;
+  watch(statics, 1.0, 4.0, 6.0);
+  TrackSet without = estimated(6.0, 6.0);
+  without.tracks.clear();
+  EXPECT_FALSE(statics.add(without));
+  without.made_at = without.made_at + StaticTracks::kOmittedFor;
+  EXPECT_TRUE(statics.add(without));
+  EXPECT_TRUE(statics.obstacles().resting.empty());
+}
+
 TEST(StaticTracks, TakesTheNewestBoxOfATrack) {
   StaticTracks statics;
   statics.add(set_of(5, 1, {box_at(1, 1.0)}));

@@ -67,7 +67,7 @@ void WorldRebuilder::add(TrackSet set) {
     if (epoch_us != set.header.name.sender_epoch_us || set.batch.set < first_set) continue;
     if (!memory.add(set)) continue;
     const auto named = statics_.find(memory.digest());
-    if (named != statics_.end()) named->second = memory.boxes();
+    if (named != statics_.end()) named->second = memory.obstacles();
   }
   predictions_ = std::make_shared<const PredictionProducts>(std::move(set));
 }
@@ -107,7 +107,7 @@ Result<std::shared_ptr<const MapProducts>> WorldRebuilder::map_of(std::uint64_t 
 
 std::shared_ptr<const GoalField> WorldRebuilder::field_of(const GoalFieldKey& key, const Vec3& start,
                                                           const std::shared_ptr<const MapProducts>& map,
-                                                          const std::vector<Box>& statics) {
+                                                          const PathObstacles& statics) {
   for (const Field& known : fields_) {
     if (known.key == key && known.map == map && known.start == start) return known.field;
   }

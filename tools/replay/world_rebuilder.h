@@ -73,7 +73,7 @@ class WorldRebuilder {
   std::shared_ptr<const UnseenKnowledge> unseen_of(const Plan& plan, const Configuration& configuration);
   std::shared_ptr<const GoalField> field_of(const GoalFieldKey& key, const Vec3& start,
                                             const std::shared_ptr<const MapProducts>& map,
-                                            const std::vector<Box>& statics);
+                                            const PathObstacles& statics);
 
   const RecordedInputs& inputs_;
   OtherSettings other_;
@@ -84,7 +84,7 @@ class WorldRebuilder {
   std::optional<UnseenWatch> watch_;                                        ///< with the frames before next_frame_
   std::size_t next_frame_ = 0;
   /// The static tracks that plans name, by digest; nullopt: not seen yet.
-  std::map<std::uint64_t, std::optional<std::vector<Box>>> statics_;
+  std::map<std::uint64_t, std::optional<PathObstacles>> statics_;
 };
 
 }  // namespace tern
