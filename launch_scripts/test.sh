@@ -14,4 +14,5 @@ case ${1:-} in
 esac
 "$TERN_ROOT/launch_scripts/install.sh" "$TERN_ROOT"/launch_scripts/packages*.txt
 "$TERN_ROOT/launch_scripts/build.sh" all
-exec ctest --test-dir "$TERN_ROOT/build/release" -j2 --output-on-failure --no-tests=error "${without[@]}" "$@"
+# One more than there are cores: a live flight has time to spare on its core.
+exec ctest --test-dir "$TERN_ROOT/build/release" -j"$(($(nproc) + 1))" --output-on-failure --no-tests=error "${without[@]}" "$@"

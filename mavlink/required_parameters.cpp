@@ -200,7 +200,8 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
     required.push_back(
         {"NAV_DLL_ACT", 0, 0, 0, true, "it would act on the loss of a ground station that does not exist"});
   } else {
-    required.push_back({"NAV_DLL_ACT", -kAny, kAny, 0, true, "with 0 the bridge may be a ground station", 0, true});
+    required.push_back({"NAV_DLL_ACT", -kAny, kAny, 0, true, "with 0 the bridge may be a ground station"});
+    required.back().may_be_absent = true;
   }
   for (const RequiredParameter& bound : bounds_of_px4(uav)) required.push_back(bound);
   for (const auto& [name, otherwise] : {std::pair{"MPC_TKO_RAMP_T", 3.0},

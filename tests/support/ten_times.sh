@@ -16,7 +16,7 @@ mkdir -p "$root/build/ten_times"
 result=0
 for ((run = 1; run <= times; run++)); do
   began=$SECONDS log=$root/build/ten_times/$run.log ended=passed
-  ctest --test-dir "$root/build/release" -j2 -LE soak --output-on-failure "$@" >"$log" 2>&1 || { ended=FAILED && result=1; }
+  ctest --test-dir "$root/build/release" -j"$(($(nproc) + 1))" -LE soak --output-on-failure "$@" >"$log" 2>&1 || { ended=FAILED && result=1; }
   echo "run $run of $times: $ended after $((SECONDS - began)) s"
   sed -n '/The following tests FAILED/,$p' "$log"
 done
