@@ -243,7 +243,7 @@ UTime Progress::next_wakeup() const { return goal_ ? next_goal_ : UTime{std::num
 
 std::string Progress::text() const {
   const Step& step = mission_.steps[idx(step_)];
-  const std::string at = fmt::format("step {} of {}, {}", step_ + 1, mission_.steps.size(), step.name);
+  std::string at = fmt::format("step {} of {}, {}", step_ + 1, mission_.steps.size(), step.name);
   switch (stand_) {
     case Stand::Waiting: return "the vehicle to follow its setpoints";
     case Stand::Flying:
