@@ -21,7 +21,7 @@ std::optional<FeatureRows> gated_rows(const std::vector<PosedView>& views, int p
   if (rows.r.size() <= 3) return std::nullopt;
   eliminate_feature(rows);
   // A track has views of clones in a row: the columns before its first one are zero.
-  const Index from = 6 * views.front().pose, span = 6 * (views.back().pose + 1) - from;
+  const Index from = Index{6} * views.front().pose, span = Index{6} * (views.back().pose + 1) - from;
   const auto H = rows.H_x.middleCols(from, span);
   MatrixXd S = MatrixXd::Identity(rows.r.size(), rows.r.size());
   S.noalias() += H * (P_poses.block(from, from, span, span) * H.transpose()).eval();
@@ -66,7 +66,7 @@ void Msckf::remove_clone(std::size_t index) {
 UpdateCounts Msckf::use(const std::vector<UsableFeature>& features, std::size_t first) {
   UpdateCounts counts;
   const int poses = static_cast<int>(clones_.size() - first);
-  const Index columns = 6 * poses;
+  const Index columns = Index{6} * poses;
   const MatrixXd P_poses = P_.bottomRightCorner(columns, columns);
   std::vector<FeatureRows> accepted;
   Index rows = 0;
