@@ -1,7 +1,6 @@
 #include "planner/kept_field.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace tern {
@@ -10,11 +9,7 @@ namespace {
 /// A side that is nearer than this to a multiple of kFieldStep is one, m: sums of decimal numbers differ by rounding.
 constexpr double kRounding = 1e-9;
 
-/// Each side of a box farther out, to the next multiple of kFieldStep.
-Box rounded_up(const Box& box) {
-  const auto outwards = [](double x) { return kFieldStep * std::ceil((x - kRounding) / kFieldStep); };
-  return {-(-box.min()).unaryExpr(outwards), box.max().unaryExpr(outwards)};
-}
+Box rounded_up(const Box& box) { return rounded_out(box, kFieldStep, kRounding); }
 
 bool is_a_little_larger(const Box& kept, const Box& wanted) {
   return grown(kept, Vec3::Constant(kRounding)).contains(wanted) &&

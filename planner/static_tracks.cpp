@@ -14,13 +14,12 @@ bool is_at_rest(const Track& track) {
   return (track.motion.sample(later).p - track.motion.sample(from).p).norm() <= StaticTracks::kRestingWay;
 }
 
-Box rounded_out(const Box& box) {
-  const auto down = [](double x) { return StaticTracks::kBoxStep * std::floor(x / StaticTracks::kBoxStep); };
-  const auto up = [](double x) { return StaticTracks::kBoxStep * std::ceil(x / StaticTracks::kBoxStep); };
-  return {box.min().unaryExpr(down), box.max().unaryExpr(up)};
-}
-
 }  // namespace
+
+Box rounded_out(const Box& box, double step, double tolerance) {
+  const auto outwards = [&](double x) { return step * std::ceil((x - tolerance) / step); };
+  return {-(-box.min()).unaryExpr(outwards), box.max().unaryExpr(outwards)};
+}
 
 std::uint64_t digest_of(const std::vector<Box>& boxes) {
   std::uint64_t h = kDigestSeed;
@@ -99,7 +98,7 @@ bool StaticTracks::take_box(const Track& track, Resting& resting) {
   if (!resting.box && 2.0 * track.half_extents.head<2>().maxCoeff() < kWide) return false;
   const bool is_much_smaller = resting.box && (resting.box->sizes() - hull.sizes()).maxCoeff() > kMuchSmaller;
   if (resting.box && resting.box->contains(hull) && !is_much_smaller) return false;
-  resting.box = rounded_out(hull);
+  resting.box = rounded_out(hull, kBoxStep);
   return true;
 }
 

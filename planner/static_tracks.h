@@ -13,6 +13,10 @@
 
 namespace tern {
 
+/// Returns the box with each side farther out, at the next multiple of `step`. A side that is at most `tolerance`
+/// beyond a multiple is put there.
+Box rounded_out(const Box& box, double step, double tolerance = 0.0);
+
 /// The boxes around which a path to the goal leads, W, not inflated by the body.
 struct PathObstacles {
   std::vector<Box> fixed;    ///< of static tracks

@@ -177,7 +177,7 @@ TEST(SightedTracks, ASlowMoverIsNotAtRest) {
   }
 }
 
-// What is seen of a mover along an axis without an end says nothing about its place there.
+// Without an end on an axis, a sighting does not tell the place along it.
 TEST(SightedTracks, AnAxisWithoutEndsIsPredictedAsLongUnseen) {
   const auto frame = [](double t, bool has_ends) {
     SightingSet set;

@@ -31,7 +31,7 @@ TEST(SizeRecord, KnowsTheKindOfAnObstacleByItsMeasuredSides) {
   EXPECT_EQ(record.longest(2, {{0.4, 0.4, 1.0}, {true, true, false}}), 4.0);
   // A beam along x is a beam along y that is turned.
   EXPECT_EQ(record.longest(0, {{1.0, 0.4, 0.4}, {false, true, true}}), 4.0);
-  // What is seen to be longer than a cube is none.
+  // An obstacle that is longer than the cubes is like the beams.
   EXPECT_EQ(record.longest(1, {{0.3, 1.5, 0.4}, {false, false, true}}), 4.0);
 }
 
