@@ -9,6 +9,7 @@
 #include "mavlink/autopilot.h"
 #include "mavlink/bridge_config.h"
 #include "mavlink/faults.h"
+#include "mavlink/fed_offset.h"
 #include "mavlink/mode_arbiter.h"
 #include "mavlink/outbox.h"
 #include "mavlink/parameter_exchange.h"
@@ -84,8 +85,9 @@ const char* to_string(Stage stage);
 /// D is MPC_XY_VEL_D_ACC and MPC_Z_VEL_D_ACC as read: that term of a PX4 opposes the whole present acceleration. The
 /// rest is what the vehicle must have when it has tilted, 1/MC_ROLL_P later. A PX4 holds a setpoint for one period, so
 /// p and v are those of half a period later. An ArduPilot extrapolates, so p and v are those of now. It integrates the
-/// acceleration to the motion that it follows, so it gets a(t) alone. The bridge also sends HEARTBEAT at 2 Hz, TIMESYNC
-/// at 10 Hz, and in flight a request for the autopilot's HEARTBEAT at 5 Hz.
+/// acceleration to the motion that it follows, so its setpoint has a(t). Position, velocity and acceleration are
+/// shifted by a FedOffset, which its loops answer with the rest. The bridge also sends HEARTBEAT at 2 Hz, TIMESYNC at
+/// 10 Hz, and in flight a request for the autopilot's HEARTBEAT at 5 Hz.
 ///
 /// When a flight with a PX4 ends, the log has drag and lag as measured, and the settings that they ask for. The lines
 /// are missing if FlightIdentification has no answer.
@@ -202,6 +204,7 @@ class Bridge {
   [[nodiscard]] bool may_be_in_failsafe(UTime now) const;
   [[nodiscard]] Duration lead() const;
   [[nodiscard]] Vec3 fed_forward(const MotionSample& m, bool following, UTime now) const;
+  [[nodiscard]] MotionSample with_feed_forward(const MotionSample& m, bool following, UTime now);
   [[nodiscard]] bool is_ground_station() const;
 
   void receive_answer(const CommandAck& ack);
@@ -236,6 +239,8 @@ class Bridge {
   TruthAnchor truth_;
   TiltRamp tilt_ramp_;
   TrackingReport tracking_;
+  FedOffset offset_;  ///< of the setpoints to an ArduPilot
+  UTime offset_at_;   ///< its time
   FollowRecord follow_record_;
   bool lag_was_logged_ = false;
   bool clock_is_off_ = false;    ///< logged for this flight

@@ -39,13 +39,12 @@ struct BridgeConfig {
     v("system", system, Range{0, 255}, "MAVLink system id of the autopilot; 0: that of the first HEARTBEAT");
     v("rate_hz", rate_hz, Range{20.0, 100.0}, "setpoints per second to the autopilot");
     v("acceleration_gain", acceleration_gain, Range{0.0, 3.0},
-      "factor on the feed-forward of acceleration; the part that MPC_XY_VEL_D_ACC opposes is added as read from a PX4; "
-      "no effect with an ArduPilot");
+      "factor on the feed-forward of acceleration; the part that MPC_XY_VEL_D_ACC opposes is added as read from a PX4");
     v("drag_per_s", drag_per_s, Range{0.0, 5.0},
-      "feed-forward against drag: acceleration per commanded velocity, 1/s; no effect with an ArduPilot");
+      "feed-forward against drag: acceleration per commanded velocity, 1/s; level only with an ArduPilot");
     v("lead_s", lead_s, Range{0.0, 0.5},
-      "the acceleration is that of this much later, because tilting takes time, s; 0: 1/MC_ROLL_P; no effect with an "
-      "ArduPilot");
+      "the acceleration is that of this much later, because tilting takes time, s; 0: 1/MC_ROLL_P, or from "
+      "ATC_INPUT_TC");
     v("climb_speed", climb_speed, Range{0.1, 5.0}, "speed of the climb to `uav.start`, m/s");
     v("reach_m", reach_m, Range{0.1, 100.0},
       "a vehicle farther than this from the point below `uav.start` does not take off, m");

@@ -1,5 +1,6 @@
 // The bridge's messages to the autopilot: streams, setpoints, external vision.
 #include <limits>
+#include <utility>
 
 #include "mavlink/axes.h"
 #include "mavlink/bridge.h"
@@ -14,6 +15,8 @@ constexpr Duration kStreamsPeriod{2'000'000}, kStreamsPeriodInFlight{30'000'000}
 constexpr double kOffboardLoss = 1.0;
 /// 50 Hz.
 constexpr Duration kVisionPeriod{20'000};
+/// After a longer pause of setpoints, the offset of an ArduPilot's begins anew.
+constexpr Duration kOffsetGap{500'000};
 constexpr std::uint16_t kAllButYawRate = 0x0800;
 constexpr std::uint8_t kLocalNed = 1, kVision = 2;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
@@ -106,6 +109,27 @@ Vec3 Bridge::fed_forward(const MotionSample& m, bool following, UTime now) const
   return config_.acceleration_gain * (ahead + opposed) + config_.drag_per_s * v_ahead;
 }
 
+/// The setpoint that makes the vehicle fly `m`.
+MotionSample Bridge::with_feed_forward(const MotionSample& m, bool following, UTime now) {
+  MotionSample sent = m;
+  const auto loops = autopilot_.stack().integrating_loops(autopilot_.parameters());
+  if (!loops) {
+    sent.a = fed_forward(m, following, now);
+    return sent;
+  }
+  const Duration since = now - std::exchange(offset_at_, now);
+  if (since > kOffsetGap) {
+    offset_.reset();
+    return sent;
+  }
+  const Vec3 beyond = following ? Vec3(fed_forward(m, following, now) - m.a) : Vec3::Zero();
+  const MotionSample& offset = offset_.step(beyond, *loops, since.seconds());
+  sent.p += offset.p;
+  sent.v += offset.v;
+  sent.a += offset.a;
+  return sent;
+}
+
 void Bridge::stream(UTime now) {
   const FlightStack& stack = autopilot_.stack();
   const bool holds_blindly = at_.stage == Stage::StoodBack && !(autopilot_.linked(now) && estimate_fault(now).empty());
@@ -119,17 +143,17 @@ void Bridge::stream(UTime now) {
   const Duration held = stack.holds_setpoints() ? Duration{period.us / 2} : Duration{};
   const MotionSample m = following ? command_.sample(now + held) : own_->motion;
   const double yaw = following ? command_.yaw() : own_->yaw;
-  const Vec3 a = stack.follows_acceleration() ? m.a : fed_forward(m, following, now);
+  const MotionSample sent = with_feed_forward(m, following, now);
   if (following) {
     last_sent_.motion = m;
     last_sent_.yaw = yaw;
-    tracking_.sent(m, a);
+    tracking_.sent(sent);
   }
   SetPositionTargetLocalNed target;
   target.time_boot_ms = static_cast<std::uint32_t>(autopilot_.clock().theirs_us(now).value_or(0) / 1000);
-  target.p = ned_of(m.p - origin_);
-  target.v = ned_of(m.v);
-  target.a = ned_of(a);
+  target.p = ned_of(sent.p - origin_);
+  target.v = ned_of(sent.v);
+  target.a = ned_of(sent.a);
   target.yaw = static_cast<float>(swapped_yaw(yaw));
   target.type_mask = kAllButYawRate;
   target.target_system = out_.target().system;

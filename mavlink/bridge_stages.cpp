@@ -186,7 +186,6 @@ void Bridge::follow(UTime now) {
   if (!near || !here) return tracking_.pause();
   const auto gains = autopilot_.stack().level_gains(autopilot_.parameters());
   tracking_.add(*here, command_.sample(here->at), gains);
-  if (autopilot_.stack().follows_acceleration()) return;  // drag_per_s is not sent
   const std::string lag = lag_was_logged_ ? "" : tracking_.lag_line(config_.drag_per_s);
   if (lag.empty()) return;
   lag_was_logged_ = true;

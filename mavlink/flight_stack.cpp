@@ -86,15 +86,38 @@ class ArduPilot final : public FlightStack {
 
   [[nodiscard]] bool takes_off_by_command() const override { return true; }
   [[nodiscard]] bool holds_setpoints() const override { return false; }
-  /// AC_PosControl::input_pos_vel_accel_NE_m.
-  [[nodiscard]] bool follows_acceleration() const override { return true; }
   /// It stops and stays in GUIDED.
   [[nodiscard]] bool setpoints_end_failsafe() const override { return false; }
   [[nodiscard]] bool sends_integers_bytewise() const override { return false; }
+  /// AC_PosControl::input_pos_vel_accel_NE_m.
+  [[nodiscard]] std::optional<CopterLoops> integrating_loops(const ParameterValues& parameters) const override {
+    const CopterLoops by_default;
+    const auto read = [&](const std::string& name, double otherwise) {
+      return value_or(parameters, "PSC_NE_" + name, value_or(parameters, older(name), otherwise));
+    };
+    return CopterLoops{.position_p = read("POS_P", by_default.position_p),
+                       .velocity_p = read("VEL_P", by_default.velocity_p),
+                       .velocity_i = read("VEL_I", by_default.velocity_i),
+                       .velocity_d = read("VEL_D", by_default.velocity_d),
+                       .error_hz = read("VEL_FLTE", by_default.error_hz),
+                       .derivative_hz = read("VEL_FLTD", by_default.derivative_hz)};
+  }
+  /// AC_AttitudeControl::attitude_command_model: the commanded tilt is followed as by two first-order lags of
+  /// ATC_INPUT_TC each; by one up to version 4.6, which has the older names. Then rates and rotors follow.
+  [[nodiscard]] Duration tilt_lag(const ParameterValues& parameters) const override {
+    constexpr double kRatesAndRotors = 0.04, kShortest = 0.02, kLongest = 0.25;  // s
+    const double input = std::clamp(value_or(parameters, "ATC_INPUT_TC", 0.15), kShortest, kLongest);
+    const bool is_old = parameters.contains(older("POS_P"));
+    return Duration::from_seconds((is_old ? 1.0 : 2.0) * input + kRatesAndRotors);
+  }
   /// It sends these on request only, and no heading in ODOMETRY.
   [[nodiscard]] std::vector<StreamRequest> streams() const override {
     return {{AttitudeQuaternion::kId, 20'000}, {LocalPositionNed::kId, 20'000}, {GlobalPositionInt::kId, 200'000}};
   }
+
+ private:
+  /// The name of a level gain up to version 4.6: PSC_POSXY_P, PSC_VELXY_I.
+  static std::string older(const std::string& name) { return "PSC_" + name.substr(0, 3) + "XY" + name.substr(3); }
 };
 
 }  // namespace
@@ -107,6 +130,10 @@ double value_or(const ParameterValues& parameters, const std::string& name, doub
 Vec3 FlightStack::derivative_gain(const ParameterValues& /*parameters*/) const { return Vec3::Zero(); }
 
 std::optional<LoopGains> FlightStack::level_gains(const ParameterValues& /*parameters*/) const { return std::nullopt; }
+
+std::optional<CopterLoops> FlightStack::integrating_loops(const ParameterValues& /*parameters*/) const {
+  return std::nullopt;
+}
 
 Duration FlightStack::tilt_lag(const ParameterValues& /*parameters*/) const { return kTiltLag; }
 

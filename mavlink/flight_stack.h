@@ -10,6 +10,7 @@
 
 #include "core/base/time.h"
 #include "core/base/types.h"
+#include "mavlink/fed_offset.h"
 #include "mavlink/flight_identification.h"
 #include "mavlink/messages.h"
 #include "mavlink/tilt_ramp.h"
@@ -52,9 +53,6 @@ class FlightStack {
   [[nodiscard]] virtual bool takes_off_by_command() const = 0;
   /// Whether it holds a setpoint until the next one. Otherwise it extrapolates.
   [[nodiscard]] virtual bool holds_setpoints() const = 0;
-  /// Whether it follows the motion that a setpoint's acceleration leads along, and corrects it towards position and
-  /// velocity. An acceleration that is not that of the path, as against drag, would lead it away from the path.
-  [[nodiscard]] virtual bool follows_acceleration() const { return false; }
   /// Whether setpoints return it to the following mode, in any failsafe.
   [[nodiscard]] virtual bool setpoints_end_failsafe() const = 0;
   /// Whether PARAM_VALUE contains the four bytes of an integer, and not its value as a float.
@@ -72,7 +70,10 @@ class FlightStack {
   [[nodiscard]] virtual Vec3 derivative_gain(const ParameterValues& parameters) const;
   /// Gains of its level loops as read, or nullopt: not read, or of another form.
   [[nodiscard]] virtual std::optional<LoopGains> level_gains(const ParameterValues& parameters) const;
-  /// Time constant of the tilt behind its command.
+  /// The level loops of a firmware that integrates the acceleration of its setpoints (FedOffset). nullopt: it adds that
+  /// acceleration to the one of its loops.
+  [[nodiscard]] virtual std::optional<CopterLoops> integrating_loops(const ParameterValues& parameters) const;
+  /// Time by which the acceleration is behind its command.
   [[nodiscard]] virtual Duration tilt_lag(const ParameterValues& parameters) const;
   /// How long the tilt stays limited after a take-off.
   [[nodiscard]] virtual Duration tilt_limited(const ParameterValues& parameters, const TiltRamp& ramp, UTime now) const;

@@ -143,6 +143,18 @@ void add_jerk(std::vector<RequiredParameter>& required, const UavSpec& uav,
   add(required, vehicle_bound("", bound), {"WPNAV_ACCEL_Z", "WP_ACC_Z", 0.01});
 }
 
+/// Gains of the level loops, and the time constant of the tilt's command, for the feed-forward.
+void add_loops(std::vector<RequiredParameter>& required) {
+  const CopterLoops loops;
+  add(required, only_read("", loops.position_p), {"PSC_POSXY_P", "PSC_NE_POS_P"});
+  add(required, only_read("", loops.velocity_p), {"PSC_VELXY_P", "PSC_NE_VEL_P"});
+  add(required, only_read("", loops.velocity_i), {"PSC_VELXY_I", "PSC_NE_VEL_I"});
+  add(required, only_read("", loops.velocity_d), {"PSC_VELXY_D", "PSC_NE_VEL_D"});
+  add(required, only_read("", loops.error_hz), {"PSC_VELXY_FLTE", "PSC_NE_VEL_FLTE"});
+  add(required, only_read("", loops.derivative_hz), {"PSC_VELXY_FLTD", "PSC_NE_VEL_FLTD"});
+  required.push_back(only_read("ATC_INPUT_TC", 0.15));
+}
+
 std::vector<RequiredParameter> of_copter(const UavSpec& uav, std::uint8_t system, const char* blind,
                                          const std::map<std::string, double>& values) {
   std::vector<RequiredParameter> required{
@@ -158,6 +170,7 @@ std::vector<RequiredParameter> of_copter(const UavSpec& uav, std::uint8_t system
   add(required, vehicle_bound("", {.key = tilt_key, .planned = tilt}), {"ANGLE_MAX", "ATC_ANGLE_MAX", 0.01});
   if (uav.limits.dynamics) required.push_back(thrust_bound("MOT_THST_HOVER", *uav.limits.dynamics));
   add_jerk(required, uav, values);
+  add_loops(required);
   return required;
 }
 

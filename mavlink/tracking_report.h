@@ -13,8 +13,8 @@ namespace tern::mavlink {
 /// Compares a flight's states with its commands, and measures drag and lag.
 class TrackingReport {
  public:
-  /// Takes a setpoint as it is sent. @param a  with all feed-forward, m/s²
-  void sent(const MotionSample& command, const Vec3& a) { identification_.sent(command.p, command.v, a); }
+  /// Takes a setpoint as it is sent, with all feed-forward.
+  void sent(const MotionSample& setpoint) { identification_.sent(setpoint.p, setpoint.v, setpoint.a); }
   /// Takes a state and the command at its time. A state that is not newer than the last one is ignored.
   /// @param gains  nullopt: nothing can be measured
   void add(const UavState& state, const MotionSample& commanded, const std::optional<LoopGains>& gains);

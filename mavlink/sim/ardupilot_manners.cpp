@@ -58,7 +58,11 @@ void SimulatedAutopilot::fly_guided(UTime t) {
   setpoint.p += later * (target_.motion.v + 0.5 * later * target_.motion.a);
   setpoint.v += later * target_.motion.a;
   if (since > timeout) setpoint.v = setpoint.a = Vec3::Zero();
-  command_.motion = shaper_.step(setpoint, level_shaping(), vertical_shaping(), kVehicleStep.seconds());
+  const double dt = kVehicleStep.seconds();
+  const MotionSample& desired = shaper_.step(setpoint, level_shaping(), vertical_shaping(), dt);
+  // The model's own level loops see no error: those of GuidedLoops are in the acceleration.
+  const MotionSample estimate = model_.estimate().motion;
+  command_.motion = loops_.step(desired, estimate, level_loops(), parameters_["ATC_INPUT_TC"], dt);
   command_.yaw = target_.yaw;
 }
 
@@ -70,6 +74,16 @@ ShapingLimits SimulatedAutopilot::level_shaping() const {
   if (turns <= 0.0 || value("ATC_RATE_FF_ENAB") == 0.0) return limits;
   limits.jerk = std::min(limits.jerk, 0.5 * std::sqrt(limits.acceleration * kGravity * turns));
   return limits;
+}
+
+CopterLoops SimulatedAutopilot::level_loops() const {
+  const auto value = [&](const char* name) { return parameters_.at(name); };
+  return {.position_p = value("PSC_NE_POS_P"),
+          .velocity_p = value("PSC_NE_VEL_P"),
+          .velocity_i = value("PSC_NE_VEL_I"),
+          .velocity_d = value("PSC_NE_VEL_D"),
+          .error_hz = value("PSC_NE_VEL_FLTE"),
+          .derivative_hz = value("PSC_NE_VEL_FLTD")};
 }
 
 /// D_set_max_speed_accel_m: the jerk is at most what the filter of the acceleration lets through.

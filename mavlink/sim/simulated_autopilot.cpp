@@ -208,7 +208,10 @@ void SimulatedAutopilot::receive_target(const SetPositionTargetLocalNed& target,
   last_target_ = now;
   if (mode_ == Mode::Offboard) {
     takes_off_to_.reset();
-    if (!guided_) shaper_.restart(model_.estimate().motion);
+    if (!guided_) {
+      shaper_.restart(model_.estimate().motion);
+      loops_.restart();
+    }
     guided_ = true;
   }
   target_.motion.p = enu_of(target.p);

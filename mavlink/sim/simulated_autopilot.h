@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mavlink/messages.h"
+#include "mavlink/sim/guided_loops.h"
 #include "mavlink/sim/guided_shaper.h"
 #include "simulator/vehicle/quadrotor_model.h"
 
@@ -53,6 +54,7 @@ struct SimulatedAutopilotConfig {
 /// | streams         | see below                                      | HEARTBEAT 1 Hz, SYS_STATUS 5 Hz              |
 /// | following mode  | needs setpoints for 0.5 s to arm, or in flight | at any time                                  |
 /// | setpoints       | held until the next one                        | extrapolated, and shaped (GuidedShaper)      |
+/// | level loops     | those of the model, with PX4's parameters      | GuidedLoops, with Copter's parameters        |
 /// | setpoints cease | after COM_OF_LOSS_T: COM_OBL_RC_ACT            | after GUID_TIMEOUT: comes back to the place  |
 /// |                 |                                                | of that moment, in GUIDED                    |
 /// | setpoints again | returns to OFFBOARD                            | follows them                                 |
@@ -123,6 +125,7 @@ class SimulatedAutopilot {
   void fly_guided(UTime t);
   [[nodiscard]] ShapingLimits level_shaping() const;
   [[nodiscard]] ShapingLimits vertical_shaping() const;
+  [[nodiscard]] CopterLoops level_loops() const;
   void begin_streams(UTime now);
   void receive_vision(const Odometry& seen, UTime now);
   void jump_up(double metres);
@@ -174,6 +177,7 @@ class SimulatedAutopilot {
   std::optional<double> takes_off_to_;  ///< in the estimate's frame, m
   bool guided_ = false;                 ///< setpoints were received since GUIDED began
   GuidedShaper shaper_;
+  GuidedLoops loops_;
   double ramp_ = 1.0;      ///< share of its speed during take-off
   double tilt_deg_ = 0.0;  ///< present tilt limit
   UTime last_step_, now_;
