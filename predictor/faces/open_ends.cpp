@@ -35,22 +35,22 @@ bool is_seen_through(const SensorView& view, const Section& section, const Vec3&
   return false;
 }
 
-// How far beyond the face the vehicle is, m; `farthest` if it is not ahead of the face.
-double to_vehicle(const SensorView& view, const Box& box, int axis, int side, double farthest) {
-  const Box room = grown(box, Vec3::Constant(kVehicleRoom));
+// How far beyond the face the sensor is, m; `farthest` if it is not surely ahead of the face.
+double to_sensor(const SensorView& view, const Box& box, int axis, int side, double farthest, double error) {
   for (int other = 0; other < 3; ++other) {
     const double at = view.sensor_position[other];
-    if (other != axis && (at < room.min()[other] || at > room.max()[other])) return farthest;
+    const bool is_ahead = at > box.min()[other] + error && at < box.max()[other] - error;
+    if (other != axis && !is_ahead) return farthest;
   }
   const double beyond =
       side < 0 ? box.min()[axis] - view.sensor_position[axis] : view.sensor_position[axis] - box.max()[axis];
-  return beyond > 0.0 ? std::min(farthest, std::max(0.0, beyond - kVehicleRoom)) : farthest;
+  return beyond > 0.0 ? std::min(farthest, beyond + error) : farthest;
 }
 
 }  // namespace
 
 double seen_empty_beyond(const SensorView& view, const Box& box, int axis, int side, double farthest, double error) {
-  const double most = to_vehicle(view, box, axis, side, farthest);
+  const double most = to_sensor(view, box, axis, side, farthest, error);
   if (view.depths.empty()) return most;
   const Section section = section_of(box, axis, error);
   double empty_from = most;

@@ -8,8 +8,6 @@ namespace tern {
 
 /// Hidden ends are followed outwards in steps of this, m, and this far.
 inline constexpr double kEndStep = 0.2, kFarthestEnd = 8.0;
-/// The vehicle's own place, a cube of this half-size about the sensor, is empty, m.
-inline constexpr double kVehicleRoom = 0.4;
 /// A section wider than this, m, is looked for at its corners as well.
 inline constexpr double kWideSection = 0.5;
 
@@ -17,6 +15,8 @@ inline constexpr double kWideSection = 0.5;
 /// box's section was seen to be empty, at two places in turn.
 ///
 /// If a box reached farther, all of its section would be filled there, and the sensor would not have seen through it.
+/// Nor would the sensor be inside it. An obstacle may pass close beside the sensor, so no room about it counts as
+/// empty.
 /// @param box  the part that was seen, W
 /// @param side  −1: the lower face of the axis, 1: the upper one
 /// @param error  of the box's place, m: its section is taken to be narrower by this, and empty space to begin farther

@@ -40,12 +40,21 @@ TEST(OpenEnds, BehindAFaceAreUnlimited) {
   EXPECT_EQ(beyond({cube}, Box(cube.min(), Vec3(5.0, 0.4, 2.4)), 0, 1), kFarthestEnd);
 }
 
-TEST(OpenEnds, DoNotReachTheVehicle) {
+TEST(OpenEnds, DoNotReachTheSensor) {
   const Box seen(Vec3(2, -0.2, 1.8), Vec3(2.4, 0.2, 2.2));
   SensorView blind;  // it saw nothing, but it is there
   blind.sensor_position = kEye;
-  EXPECT_NEAR(seen_empty_beyond(blind, seen, 0, -1, kFarthestEnd, kError), 2.0 - kVehicleRoom, 1e-9);
-  EXPECT_LT(beyond({seen}, seen, 0, -1), 2.0 - kVehicleRoom) << "the space before it was seen to be empty";
+  EXPECT_NEAR(seen_empty_beyond(blind, seen, 0, -1, kFarthestEnd, kError), 2.0 + kError, 1e-9);
+  EXPECT_LT(beyond({seen}, seen, 0, -1), 1.0) << "the space before it was seen to be empty";
+}
+
+TEST(OpenEnds, MayPassTheSensor) {
+  SensorView blind;
+  blind.sensor_position = kEye;
+  for (const double lateral : {0.01, 0.1, 0.3}) {
+    const Box wall(Vec3(0.5, lateral, 1), Vec3(6, lateral + 0.2, 3));
+    EXPECT_EQ(seen_empty_beyond(blind, wall, 0, -1, kFarthestEnd, kError), kFarthestEnd) << lateral << " m beside it";
+  }
 }
 
 // A beam at a random place, partly behind a random pillar. Whatever part of it was seen, its rest is no longer than
