@@ -16,7 +16,7 @@ inline constexpr double kWideSection = 0.5;
 ///
 /// If a box reached farther, all of its section would be filled there, and the sensor would not have seen through it.
 /// Nor would the sensor be inside it. An obstacle may pass close beside the sensor, so no room about it counts as
-/// empty.
+/// empty. That an obstacle fills its box is an assumption: the rest of a wall that is turned in W may be cut off.
 /// @param box  the part that was seen, W
 /// @param side  −1: the lower face of the axis, 1: the upper one
 /// @param error  of the box's place, m: its section is taken to be narrower by this, and empty space to begin farther
