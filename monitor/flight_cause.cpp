@@ -9,6 +9,7 @@
 #include "core/base/percentiles.h"
 #include "core/world/body.h"
 #include "core/world/names.h"
+#include "core/world/stated_bound.h"
 
 namespace tern {
 namespace {
@@ -58,6 +59,9 @@ class Explainer {
   }
 
   Explanation timeout() const {
+    if (end_.detail.starts_with(kReachedAsBelieved)) {
+      return {Cause::EstimateOff, end_.detail + "; texture in view of the goal, or a POSITION_FIX, would help"};
+    }
     if (const auto silent = evidence_.silent_process()) {
       return {Cause::ProcessSilent,
               fmt::format("{}: {} was silent from {:.1f} s on, so it died or was cut off; {}.log says why", held_,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/world/names.h"
+#include "core/world/stated_bound.h"
 #include "monitor/flight_summary.h"
 
 namespace tern {
@@ -135,6 +136,12 @@ std::string message_lines(const FlightSummary& s) {
          troubled;
 }
 
+/// Outcome and detail. "reached as believed" says more than the referee's "timeout".
+std::string headline(const FlightSummary& s) {
+  if (s.detail.starts_with(kReachedAsBelieved)) return s.detail;
+  return fmt::format("{}{}{}", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
+}
+
 }  // namespace
 
 int exit_code(const FlightSummary& s) {
@@ -143,7 +150,7 @@ int exit_code(const FlightSummary& s) {
 }
 
 std::string to_text(const FlightSummary& s) {
-  std::string text = fmt::format("{}{}{}", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
+  std::string text = headline(s);
   text += "\n" + wrapped("  why           ", s.explanation.sentence);
   if (s.recording && !s.recording->empty()) text += wrapped("  recording     ", "incomplete: " + *s.recording);
   text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));

@@ -7,6 +7,7 @@
 
 #include "core/world/box_cover.h"
 #include "core/world/names.h"
+#include "core/world/stated_bound.h"
 #include "executor/commanded_motion.h"
 #include "messages/codec.h"
 #include "runtime/log.h"
@@ -30,10 +31,6 @@ constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
 /// An external vehicle's truth may be this late at the end of a flight's time.
 constexpr Duration kTruthLate{1'000'000};
-/// As the referee's, for the believed state.
-constexpr double kArrivalRadius = 0.2, kArrivalSpeed = 0.1;  // m, m/s
-/// A vehicle that estimates its pose and has believed for this long to be at its goal stays where it is.
-constexpr Duration kBelievedArrival{2'000'000};
 constexpr const char* kMapperProcess = "tern-mapper";
 
 UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }
@@ -89,6 +86,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) {
     const UTime now = bus_.received();
+    setpoint_ = setpoint.motion;
     if (!has_missed_setpoints(now) && now >= resumes_at_) vehicle_->receive(setpoint);
   });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->receive(m.committed); });
@@ -283,18 +281,20 @@ void SimulatorNode::judge(UTime now) {
   if (vio_) judge_belief(now);
 }
 
-/// The referee has not seen the vehicle arrive. A vehicle that believes that it has arrived will not come nearer.
+/// The referee has not seen the vehicle arrive.
 void SimulatorNode::judge_belief(UTime now) {
+  const Navigation& navigation = *vehicle_->navigation();
+  const bool may_arrive = goal_ && goal_->mode == GoalMode::Go && navigation.trouble().empty() &&
+                          referee_.now().seconds() >= referee_.earliest_arrival_s();
+  if (!may_arrive) return believed_arrival_.reset();
   const MotionSample believed = vehicle_->estimate(now).motion;
-  const bool is_there = goal_ && goal_->mode == GoalMode::Go &&
-                        (believed.p - goal_->position).norm() <= kArrivalRadius && believed.v.norm() < kArrivalSpeed;
-  if (!is_there) return believes_arrived_since_.reset();
-  if (!believes_arrived_since_) believes_arrived_since_ = now;
-  if (now - *believes_arrived_since_ < kBelievedArrival) return;
+  if (!believed_arrival_.update(now, goal_->position, setpoint_, believed)) return;
   FlightResult result = referee_.result_so_far();
   result.outcome = FlightOutcome::Timeout;
-  const double off = (vehicle_->true_state().motion.p - goal_->position).norm();
-  result.detail = fmt::format("the vehicle believes to be at the goal; in truth it is {:.2f} m from it", off);
+  result.detail = fmt::format(
+      "{}: {:.2f} m from the goal by its own estimate, {:.2f} m in truth; the stated 99 % bound is {:.2f} m",
+      kReachedAsBelieved, (believed.p - goal_->position).norm(),
+      (vehicle_->true_state().motion.p - goal_->position).norm(), stated_bound(navigation.odometry()->pose_covariance));
   end_flight(result, 0, now);
 }
 

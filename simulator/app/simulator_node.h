@@ -16,6 +16,7 @@
 #include "simulator/app/start_gate.h"
 #include "simulator/app/vio_sensors.h"
 #include "simulator/app/world_broadcast.h"
+#include "simulator/referee/believed_arrival.h"
 #include "simulator/referee/referee.h"
 #include "simulator/vehicle/vehicle.h"
 
@@ -41,8 +42,9 @@ inline constexpr int kExitNotReady = 3;  ///< a required process was not ready i
 /// Ended: FLIGHT_RESULT is repeated for a second while the vehicle comes to rest. Then the exit code is 0, for every
 /// verdict.
 ///
-/// A vehicle that estimates its own pose may believe that it is at the goal while it hovers elsewhere. After 2 s of
-/// that the flight ends as a timeout, and its detail has the true distance.
+/// A vehicle that estimates its own pose may believe that it is at the goal while it hovers elsewhere. Then the flight
+/// ends by BelievedArrival. The verdict is about the truth, so it is Timeout. Its detail begins with
+/// kReachedAsBelieved, and has the true distance and the bound that the estimator states.
 ///
 /// The referee judges the vehicle's true motion (VEHICLE_TRUTH). UAV_STATE is the estimator's output. The goal is the
 /// scenario's, with id 1, unless config.send_goal is false. A GOAL with a larger id replaces it. It is repeated at 1
@@ -107,7 +109,8 @@ class SimulatorNode final : public Node {
   WorldBroadcast broadcast_;  // of the referee's world
   SensorBroadcast sensors_;
   std::optional<VioSensors> vio_;
-  std::optional<UTime> believes_arrived_since_;
+  BelievedArrival believed_arrival_;
+  MotionSample setpoint_;
   std::optional<Goal> goal_;
   std::optional<UTime> world_zero_;
   std::optional<FlightResult> result_;

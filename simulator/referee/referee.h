@@ -43,6 +43,7 @@ class Referee {
   void set_goal(const std::optional<Vec3>& goal);
   /// Sets the earliest arrival, world time, s: for a vehicle that guards its place.
   void set_earliest_arrival(double t_s) { earliest_arrival_s_ = t_s; }
+  [[nodiscard]] double earliest_arrival_s() const { return earliest_arrival_s_; }
   /// Takes speeds (arrival, stops, top speed, path length) from the velocities at the pieces' ends: for a vehicle whose
   /// states have time stamps that jitter. @pre each piece joins two states of the vehicle
   void trust_stated_velocities() { has_stated_velocities_ = true; }

@@ -324,6 +324,15 @@ TEST(FlightCause, OfAStartInAnObstacleIsToMoveIt) {
   EXPECT_EQ(why.sentence, "the start lies in obstacle 2 at 0.000 s: move uav.start, or the obstacle");
 }
 
+TEST(FlightCause, OfAFlightThatReachedItsGoalAsBelievedIsItsEstimate) {
+  Story story;
+  story.fly(0, 6, 0.5);
+  const std::string detail = "reached as believed: 0.05 m from the goal by its own estimate, 0.52 m in truth";
+  const Explanation why = explain(story.evidence, {FlightOutcome::Timeout, detail});
+  EXPECT_EQ(why.cause, Cause::EstimateOff);
+  EXPECT_THAT(why.sentence, HasSubstr(detail));
+}
+
 TEST(FlightCause, OfAnAutopilotBeginsWithTheGoalToFlyTo) {
   Story story;
   Goal goal;

@@ -161,6 +161,14 @@ TEST(Summary, SaysWhyBelowTheOutcome) {
   EXPECT_EQ(summary["why"], s.explanation.sentence);
 }
 
+TEST(Summary, OfAFlightThatReachedItsGoalAsBelievedBeginsWithThat) {
+  FlightSummary s = flown();
+  s.outcome = FlightOutcome::Timeout;
+  s.detail = "reached as believed: 0.05 m from the goal by its own estimate, 0.52 m in truth";
+  EXPECT_THAT(to_text(s), testing::StartsWith(s.detail + "\n"));
+  EXPECT_EQ(exit_code(s), 2) << "it is not there in truth";
+}
+
 TEST(Summary, OfAnIncompleteRecordingSaysSoAndIsNoSuccess) {
   FlightSummary s = flown();
   EXPECT_TRUE(json::parse(to_json(s))["recording"].is_null()) << "no logger was heard";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "campaign/virtual_system.h"
+#include "core/world/stated_bound.h"
 #include "executor/app/executor_node.h"
 #include "messages/channels.h"
 #include "simulator/app/simulator_node.h"
@@ -88,9 +89,26 @@ TEST_F(EstimatedFlight, GoesWhereTheVehicleBelievesTheGoalToBe) {
   }
   const FlightResult result = fly_to_the_end();
   EXPECT_EQ(result.outcome, FlightOutcome::Timeout);
-  EXPECT_NE(result.detail.find("believes to be at the goal"), std::string::npos) << result.detail;
+  EXPECT_TRUE(result.detail.starts_with(kReachedAsBelieved)) << result.detail;
   EXPECT_LT((state_.motion.p - Vec3(30, 0, 1)).norm(), 0.1);
   EXPECT_NEAR((truth_.motion.p - Vec3(30, 0, 1)).norm(), 0.4, 0.1);
+}
+
+TEST_F(EstimatedFlight, IsReachedAsBelievedAlthoughTheEstimateIsCorrectedAllTheTime) {
+  fly_midway();
+  errors_.sigma = 0.3;
+  const UTime last = system_.runner().now() + Duration::from_seconds(15.0);
+  double y = 0.3;
+  while (!system_.simulator().result() && system_.runner().now() < last) {
+    y = y > 0.5 ? 0.3 : 0.6;
+    errors_.drift = errors_.offset = Vec3(0.0, y, 0.0);  // O stays, T_WO moves by 0.3 m, at 0.1 m/s
+    fly(2.0);
+  }
+  ASSERT_TRUE(system_.simulator().result());
+  const FlightResult result = *system_.simulator().result();
+  EXPECT_EQ(result.outcome, FlightOutcome::Timeout) << "the verdict is about the truth";
+  EXPECT_TRUE(result.detail.starts_with(kReachedAsBelieved)) << result.detail;
+  EXPECT_NE(result.detail.find("the stated 99 % bound is 1.01 m"), std::string::npos) << result.detail;
 }
 
 TEST_F(EstimatedFlight, WithoutOdometryComesToRestAndSaysSo) {

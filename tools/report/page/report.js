@@ -2,8 +2,9 @@
 // ---- head
 function head() {
   const result = flight.result;
-  const outcome = result ? result.outcome : "no verdict";
-  const tone = outcome === "reached" ? "good" : result ? "bad" : "warn";
+  const believed = result && result.detail.startsWith("reached as believed");
+  const outcome = believed ? "reached as believed" : result ? result.outcome : "no verdict";
+  const tone = outcome === "reached" ? "good" : result && !believed ? "bad" : "warn";
   const verdict = { held: ["good", "audit held"], broken: ["bad", "audit broken"], incomplete: ["warn", "audit incomplete: a part of the flight is not in the log"], "not judged": ["warn", "not judged"] }[audit.verdict];
   if (audit.collision === "cannot tell") verdict.splice(0, 2, "warn", "audit " + audit.verdict + ", the collision is too close to tell");
   const date = flight.recorded_us > 1e15 ? new Date(flight.recorded_us / 1000).toISOString().slice(0, 16).replace("T", " ") + " UTC, " : "";
