@@ -129,8 +129,9 @@ void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, doub
     if (object.born == from.at && !measured.has[idx(axis)]) forget(axis);  // it was restarted, at no place
   }
   const Vec3 now = object.moving.lead().position();
+  const bool rests = is_stationary(object);  // so its anchor stays on all axes, and with it what was seen of it
   for (int axis = 0; axis < 3; ++axis) {
-    if (!object.faces.has_position(axis)) object.faces.relearn(axis, now, sighting);
+    if (!rests && !object.faces.has_position(axis)) object.faces.relearn(axis, now, sighting);
   }
   object.faces.learn(now, sighting, is_sound);
   object.half_extents = 0.5 * object.faces.completed(now).sizes();

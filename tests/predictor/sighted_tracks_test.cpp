@@ -209,6 +209,34 @@ TEST(SightedTracks, AnAxisWithoutEndsIsPredictedAsLongUnseen) {
   EXPECT_LT(part[0].alpha[later].x(), 0.8 * none[0].alpha[later].x()) << "its place along x is seen";
 }
 
+// A wall of 5 m of which the ends along y are hidden. It is seen between two values of y.
+SightingSet wall_frame(double t, double from, double to) {
+  SightingSet set;
+  set.at = at_seconds(t);
+  set.view.sensor_position = kEye;
+  Sighting wall;
+  wall.lower = Vec3(6.0, from, 1);
+  wall.upper = Vec3(6.4, to, 3);
+  wall.lower_sigma = wall.upper_sigma = Vec3::Constant(0.01);
+  wall.bounds.fill(BoundSight::Whole);
+  wall.bounds[2] = wall.bounds[3] = BoundSight::Occluded;
+  wall.points = 100;
+  set.sightings = {wall};
+  return set;
+}
+
+TEST(SightedTracks, WhatWasSeenOfARestingObstacleIsKept) {
+  Tracker tracker{TrackerConfig{}};
+  for (int k = 0; k < 60; ++k) tracker.update(wall_frame(k / kRate, 0.0, 5.0), kEye);
+  tracker.update(wall_frame(60 / kRate, 2.25, 2.75), kEye);  // somebody steps before it
+  ASSERT_EQ(tracker.sighted().size(), 1u);
+  const TrackedObject& wall = tracker.sighted().front();
+  EXPECT_TRUE(tracker.is_stationary(wall));
+  const Box box = wall.faces.completed(wall.moving.lead().position());
+  EXPECT_LE(box.min().y(), 1e-6);
+  EXPECT_GE(box.max().y(), 5.0 - 1e-6);
+}
+
 TEST(SightedTracks, WhatRestedMayBeginToMove) {
   const auto box = [](double t) { return box_around(Vec3(5, std::max(0.0, 1.5 * (t - 2.0)), 2), Vec3::Constant(0.4)); };
   Tracker tracker{TrackerConfig{}};
