@@ -232,10 +232,7 @@ bool Tracker::is_stationary(const TrackedObject& object) const {
   if (object.last_seen - object.resting_since < config_.resting_after) return false;
   if (object.is_sighted) {
     const bool is_sound = object.rejected == std::array<int, 3>{};
-    return is_sound && object.faces.positions() >= kAxesToRest &&
-           std::ranges::all_of(object.resting, [](const AxisFilter& axis) {
-             return std::abs(axis.v) + 2.0 * std::sqrt(axis.vv) <= kKnownRest;
-           });
+    return is_sound && object.faces.positions() >= kAxesToRest && object.is_rest_known;
   }
   return std::ranges::all_of(object.resting, [](const AxisFilter& axis) {
     return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));

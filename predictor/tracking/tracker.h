@@ -77,7 +77,8 @@ inline constexpr double kFaceOutlier = 0.15, kFaceOutlierSigmas = 3.0;
 inline constexpr int kMostRejected = 8;
 /// A sighting in the box of a track that was seen in the same frame is a piece of it. The box is grown by this, m.
 inline constexpr double kPieceMargin = 0.2;
-/// A track by sightings is at rest only if its speed is known: on each axis |v| + 2σ is at most this, m/s.
+/// A track by sightings is at rest only if its speed is known: on each axis |v| + 2σ is at most this, m/s. The last
+/// sighting decides: out of sight σ grows.
 inline constexpr double kKnownRest = 0.12;
 /// It has started once it is this far from its place of rest, m.
 inline constexpr double kSightedStart = 1.0;

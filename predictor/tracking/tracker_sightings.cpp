@@ -128,6 +128,8 @@ void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, doub
   for (int axis = 0; axis < 3; ++axis) {
     if (object.born == from.at && !measured.has[idx(axis)]) forget(axis);  // it was restarted, at no place
   }
+  object.is_rest_known = std::ranges::all_of(
+      object.resting, [](const AxisFilter& axis) { return std::abs(axis.v) + 2.0 * std::sqrt(axis.vv) <= kKnownRest; });
   const Vec3 now = object.moving.lead().position();
   const bool rests = is_stationary(object);  // so its anchor stays on all axes, and with it what was seen of it
   for (int axis = 0; axis < 3; ++axis) {

@@ -237,6 +237,27 @@ TEST(SightedTracks, WhatWasSeenOfARestingObstacleIsKept) {
   EXPECT_GE(box.max().y(), 5.0 - 1e-6);
 }
 
+TEST(SightedTracks, WhatRestsIsRememberedAsLongAsStated) {
+  const TrackerConfig config;
+  Tracker tracker{config};
+  for (int k = 0; k < 60; ++k) tracker.update(wall_frame(k / kRate, 0.0, 5.0), kEye);
+  const UTime last = tracker.newest();
+  const auto look_away = [&](double unseen) {
+    SightingSet nothing = wall_frame(0.0, 0.0, 5.0);
+    nothing.at = last + Duration::from_seconds(unseen);
+    nothing.sightings.clear();
+    tracker.update(nothing, kEye);
+  };
+  const double most = config.remember_rest.seconds();
+  for (double unseen = 0.1; unseen < most; unseen += 0.1) {
+    look_away(unseen);
+    ASSERT_EQ(tracker.sighted().size(), 1u) << "after " << unseen << " s";
+    ASSERT_TRUE(tracker.is_stationary(tracker.sighted().front())) << "after " << unseen << " s";
+  }
+  look_away(most + 0.1);
+  EXPECT_TRUE(tracker.sighted().empty());
+}
+
 TEST(SightedTracks, WhatRestedMayBeginToMove) {
   const auto box = [](double t) { return box_around(Vec3(5, std::max(0.0, 1.5 * (t - 2.0)), 2), Vec3::Constant(0.4)); };
   Tracker tracker{TrackerConfig{}};
