@@ -42,6 +42,12 @@ bool has_left(const TrackedObject& object, const std::array<AxisFilter, 3>& stoo
   return !object.is_sighted || (detection.position - position(stood)).norm() > kSightedStart;
 }
 
+// True if a track by sightings, which rested at `stood`, rests at another place: a start that ended within
+// kSightedStart.
+bool rests_elsewhere(const TrackedObject& object, const std::array<AxisFilter, 3>& stood) {
+  return object.is_sighted && (position(object.resting) - position(stood)).norm() > kFaceGate;
+}
+
 std::pair<UTime, std::int32_t> key(const ObservationSet& set) { return {set.at, set.sensor_id}; }
 
 }  // namespace
@@ -159,6 +165,7 @@ void Tracker::update_track(TrackedObject& object, const Detection& detection, co
     restart(object, detection, from);
   } else if (rested) {
     rest.rested_s += (from.at - seen).seconds();
+    if (object.stood && rests_elsewhere(object, *object.stood)) ++rest.starts;
     object.stood.reset();
   } else if (object.stood && has_left(object, *object.stood, detection)) {
     // A detection at the old place means that the obstacle still rests there, and that this is another one.

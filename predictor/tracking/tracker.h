@@ -80,7 +80,7 @@ inline constexpr double kPieceMargin = 0.2;
 /// A track by sightings is at rest only if its speed is known: on each axis |v| + 2σ is at most this, m/s. The last
 /// sighting decides: out of sight σ grows.
 inline constexpr double kKnownRest = 0.12;
-/// It has started once it is this far from its place of rest, m.
+/// It has started once it is this far from its place of rest, m, or rests again farther than kFaceGate from it.
 inline constexpr double kSightedStart = 1.0;
 /// Its α allows for the speed that its moving filter sees, for this long ahead, s. By then a motion shows.
 inline constexpr double kDriftTime = 1.0;

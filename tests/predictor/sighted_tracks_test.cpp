@@ -258,6 +258,18 @@ TEST(SightedTracks, WhatRestsIsRememberedAsLongAsStated) {
   EXPECT_TRUE(tracker.sighted().empty());
 }
 
+TEST(SightedTracks, AStepOfNineTenthsIsAStart) {
+  const auto cube = [](double t) {
+    return box_around(Vec3(5, -0.5 + 0.9 * std::clamp(t - 2.0, 0.0, 1.0), 2), Vec3::Constant(0.4));
+  };
+  Tracker tracker{TrackerConfig{}};
+  RenderingSensor camera = RenderingSensor::camera();
+  watch(tracker, camera, 0.0, 5.0, [&](double t) { return std::vector{cube(t)}; });
+  ASSERT_EQ(tracker.sighted().size(), 1u);
+  EXPECT_TRUE(tracker.is_stationary(tracker.sighted().front()));
+  EXPECT_EQ(tracker.rest().starts, 1);
+}
+
 TEST(SightedTracks, WhatRestedMayBeginToMove) {
   const auto box = [](double t) { return box_around(Vec3(5, std::max(0.0, 1.5 * (t - 2.0)), 2), Vec3::Constant(0.4)); };
   Tracker tracker{TrackerConfig{}};
