@@ -50,6 +50,12 @@ void Progress::start(const std::optional<Goal>& heard, const std::optional<Remem
   const auto step = heard ? step_of_own(*heard) : std::nullopt;
   if (heard) largest_id_ = std::max(largest_id_, heard->id);
   if (is_known) reached_ = remembered->reached;
+  if (is_known && remembered->ended) {
+    step_ = remembered->step;
+    stand_ = *remembered->ended;
+    why_failed_ = remembered->text;
+    return;
+  }
   if (step) {
     step_ = *step;
   } else if (is_known) {
@@ -102,6 +108,7 @@ void Progress::fail(std::string why, UTime now) {
 void Progress::set_following(bool following, UTime now) {
   if (following == std::exchange(following_, following) || !following || !has_started_) return;
   step_since_ = track_at_ = now;
+  sent_from_ = position_;  // a pilot may have moved the vehicle
   if (stand_ == Stand::Waiting) fly_to(step_, now);
 }
 

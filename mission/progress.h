@@ -34,7 +34,9 @@ enum class Stand : std::uint8_t { Waiting, Flying, Staying, Paused, Done, Failed
 /// Where an earlier process of the same flight stood.
 struct Remembered {
   int step = 0;
-  bool is_paused = false;  ///< by an order
+  bool is_paused = false;      ///< by an order
+  std::optional<Stand> ended;  ///< Done or Failed: nothing is flown again
+  std::string text;            ///< Progress::text()
   std::vector<std::optional<UTime>> reached;
 };
 
@@ -58,7 +60,7 @@ struct Remembered {
 /// - **Pilot.** Steps are judged and goals are made only while the vehicle follows. A new goal would take it away from
 ///   a pilot.
 /// - **Restart.** The number of the step is part of a goal's id (step_of). The vehicle repeats its goal, so a new
-///   process finds the step in it.
+///   process finds the step in it. A mission that had ended stays ended, and sends no goal.
 class Progress {
  public:
   /// @param first  step to begin with, 0 … steps − 1

@@ -37,9 +37,10 @@ MissionNode::MissionNode(Bus& bus, MissionSetup setup)
   is_ordered_ = setup_.mission.has_value();
   if (!setup_.mission) {
     if (auto steps = record_.read_upload()) {
-      log::info("continues the mission that was uploaded before the restart");
       setup_.mission = Mission{kUploaded, std::move(*steps)};
-      is_ordered_ = true;
+      is_ordered_ = record_.read(*setup_.mission).has_value();
+      log::info("has the mission that was uploaded before the restart; it was {}",
+                is_ordered_ ? "started" : "not started");
     }
   }
   if (!setup_.mission) return;
@@ -54,9 +55,10 @@ void MissionNode::set_mission(Mission mission) {
   progress_->set_following(following_, bus_.clock().now());
   if (state_) progress_->receive(*state_, bus_.clock().now());
   has_started_ = false;
+  noted_.clear();
 }
 
-/// Only the first map is judged: a later one is the planner's affair.
+/// Only the first map is judged: a later one is the planner's affair. So a restarted process judges none.
 void MissionNode::on_map(const MapChunk& chunk) {
   if (map_) return;
   const auto complete = assembler_.add(chunk);
@@ -64,6 +66,7 @@ void MissionNode::on_map(const MapChunk& chunk) {
   map_ = assembler_.take();
   const std::string blocked = progress_ ? steps_blocked(progress_->mission(), *map_, setup_.uav.body) : "";
   if (blocked.empty()) return;
+  if (record_.read(progress_->mission())) return log::warn("{}: {}", progress_->mission().file, blocked);
   log::error("{}: {}; move it, or correct map and fences", progress_->mission().file, blocked);
   exit_code_ = kExitCannotFly;
 }
@@ -95,6 +98,7 @@ std::string MissionNode::take_upload(const std::vector<Item>& items) {
   if (is_flown) return "a mission is being flown: let it end first";
   if (!map_) return "tern-mission has no map yet: upload again when the mapper has sent it";
   if (items.empty()) {
+    record_.forget();
     progress_.reset();
     is_ordered_ = has_started_ = false;
     return "";
@@ -106,6 +110,7 @@ std::string MissionNode::take_upload(const std::vector<Item>& items) {
                                  steps_blocked(mission, *map_, setup_.uav.body)}) {
     if (!why.empty()) return why;
   }
+  record_.forget();
   if (!record_.write_upload(mission.steps)) log::error("the uploaded mission cannot be recorded; a restart loses it");
   set_mission(std::move(mission));
   is_ordered_ = false;
@@ -128,6 +133,7 @@ std::string MissionNode::obey(Order order) {
 }
 
 UTime MissionNode::next_wakeup() const {
+  if (exit_code_) return kNever;
   UTime next = has_started_ ? progress_->next_wakeup() : std::max(listens_until_, next_hold_);
   if (station_) next = std::min(next, station_->next_wakeup());
   return next;
@@ -149,8 +155,11 @@ void MissionNode::start(UTime now) {
   has_started_ = true;
   const auto remembered = is_fresh_ ? std::nullopt : record_.read(progress_->mission());
   const bool is_held = hold_ && (!heard_ || heard_->id <= hold_->id);
-  progress_->start(is_held ? hold_ : heard_, remembered, now);
-  if (progress_->step() > 0) log::info("goes on at {}", progress_->text());
+  std::optional<Goal> heard = is_held ? hold_ : heard_;
+  // An upload begins at its first step: of the goal before, which may be another mission's, only the id counts.
+  if (is_fresh_ && heard) heard->mode = GoalMode::Hold;
+  progress_->start(heard, remembered, now);
+  if (progress_->step() > 0 && progress_->stand() < Stand::Done) log::info("goes on at {}", progress_->text());
 }
 
 /// The planner needs a goal before the vehicle can take off.

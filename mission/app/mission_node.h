@@ -40,6 +40,8 @@ struct MissionSetup {
 /// 3. Without a mission it sends a goal to hold, until one is uploaded and started.
 /// 4. It sends goals until the mission is done or has failed. HEARTBEAT then says Finished or Failed, and the last goal
 ///    is repeated until the process is ended.
+///
+/// A restarted process flies an uploaded mission only if it was started, and none that has ended.
 class MissionNode final : public Node {
  public:
   MissionNode(Bus& bus, MissionSetup setup);

@@ -85,6 +85,10 @@ std::optional<Remembered> MissionRecord::read(const Mission& mission) const try 
   Remembered remembered;
   remembered.step = json.at("step").get<int>();
   remembered.is_paused = json.at("state") == "paused";
+  for (const Stand end : {Stand::Done, Stand::Failed}) {
+    if (json.at("state") == to_word(end)) remembered.ended = end;
+  }
+  remembered.text = json.at("text").get<std::string>();
   for (const Json& step : json.at("steps")) {
     const Json& at = step.at("reached_us");
     remembered.reached.push_back(at.is_null() ? std::nullopt : std::optional(UTime{at.get<std::int64_t>()}));
@@ -94,6 +98,11 @@ std::optional<Remembered> MissionRecord::read(const Mission& mission) const try 
   return remembered;
 } catch (const Json::exception&) {
   return std::nullopt;
+}
+
+void MissionRecord::forget() const {
+  if (folder_.empty()) return;
+  for (const char* name : {"/mission.json", "/mission.txt", "/uploaded.json"}) std::remove((folder_ + name).c_str());
 }
 
 bool MissionRecord::write_upload(const std::vector<Step>& steps) const {

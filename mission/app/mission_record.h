@@ -21,6 +21,8 @@ class MissionRecord {
   /// Writes the steps of an uploaded mission, and reads them back after a restart. They are in uploaded.json.
   [[nodiscard]] bool write_upload(const std::vector<Step>& steps) const;
   [[nodiscard]] std::optional<std::vector<Step>> read_upload() const;
+  /// Removes these files: an uploaded mission was cleared or replaced.
+  void forget() const;
   /// Reads mission.json; nullopt if there is none, or if it belongs to another mission.
   [[nodiscard]] std::optional<Remembered> read(const Mission& mission) const;
 

@@ -178,6 +178,23 @@ TEST_F(MissionProgress, ANewProcessStaysPausedByAnOrder) {
   EXPECT_EQ(again.due(now_)->position, Vec3(20, 0, 2));
 }
 
+TEST_F(MissionProgress, ANewProcessFliesNothingOfAMissionThatHasEnded) {
+  Goal other;
+  other.id = goal_id(kNoStep, now_, 0) - 1;
+  other.position = Vec3(5, 5, 5);
+  Remembered remembered;
+  remembered.step = 2;
+  remembered.ended = Stand::Failed;
+  remembered.text = "c was not reached";
+  remembered.reached.resize(3);
+  progress_.set_following(true, now_);
+  progress_.start(other, remembered, now_);
+  state(other.position);
+  EXPECT_FALSE(goal());
+  EXPECT_EQ(progress_.stand(), Stand::Failed);
+  EXPECT_EQ(progress_.text(), remembered.text);
+}
+
 TEST_F(MissionProgress, AnOrderPausesAndResumes) {
   begin();
   EXPECT_TRUE(progress_.pause(now_));
@@ -200,6 +217,16 @@ TEST_F(MissionProgress, ANewProcessStaysPaused) {
   progress_.start(other, remembered, now_);
   EXPECT_EQ(progress_.stand(), Stand::Paused);
   EXPECT_EQ(progress_.step(), 2);
+}
+
+TEST_F(MissionProgress, TheTimeOfAStepCountsFromWhereAPilotLeftTheVehicle) {
+  begin();
+  progress_.set_following(false, now_);
+  state({300, 0, 2});
+  progress_.set_following(true, now_);
+  wait(time_limit_s({0, 0, 2}, {10, 0, 2}, Limits()) + 1.0);
+  state({100, 0, 2}, {-6, 0, 0});
+  EXPECT_EQ(progress_.stand(), Stand::Flying);
 }
 
 TEST_F(MissionProgress, FailsWhenAStepTakesTooLong) {
