@@ -51,8 +51,12 @@ void LiveUpdates::receive(const MapFile& part) {
   const auto octomap = parse_octomap(*bytes, "MAP_FILE", {-part.origin, 1.0});
   refused_file_ = octomap ? "" : octomap.error().message;
   if (!octomap) return log::warn("an OctoMap is not used: {}", refused_file_);
+  if (!map_.set_octomap(*octomap)) {
+    refused_file_ = fmt::format("none of its {} leaves lies in the map: check its origin and its frame",
+                                octomap->leaves.size() + static_cast<std::size_t>(octomap->too_far));
+    return log::warn("an OctoMap is not used: {}", refused_file_);
+  }
   begin();
-  map_.set_octomap(*octomap);
 }
 
 void LiveUpdates::add_scans(UTime now) {
@@ -72,7 +76,10 @@ std::optional<VoxelMap> LiveUpdates::take_new(UTime now) {
 }
 
 std::string LiveUpdates::waiting_for() const {
-  if (!has_begun_) return "a scan on POINT_CLOUD or DEPTH_IMAGE, or an OctoMap on MAP_FILE";
+  if (!has_begun_) {
+    const std::string first = "a scan on POINT_CLOUD or DEPTH_IMAGE, or an OctoMap on MAP_FILE";
+    return refused_file_.empty() ? first : first + "; an OctoMap is not used: " + refused_file_;
+  }
   if (!last_scan_) return "";
   const Duration silence = bus_.clock().now() - *last_scan_;
   if (silence < kScanSilence) return "";

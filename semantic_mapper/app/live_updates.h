@@ -20,6 +20,8 @@ class LiveUpdates {
   /// @param base  the map of the files. @throws std::invalid_argument as LiveMap's constructor
   LiveUpdates(Bus& bus, const VoxelMap& base, const LiveSetup& setup);
 
+  /// Whether a scan or an OctoMap was used.
+  [[nodiscard]] bool has_begun() const { return has_begun_; }
   /// Adds the scans that are complete.
   void add_scans(UTime now);
   /// Returns the map if it differs from the version given last. Not more often than once per period.

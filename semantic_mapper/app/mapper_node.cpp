@@ -70,6 +70,7 @@ void MapperNode::publish(const VoxelMap& map) {
 
 UTime MapperNode::next_wakeup() const {
   if (!live_) return next_;
+  if (!live_->has_begun()) return live_->next_scan();
   const UTime next = std::min(next_, live_->next_scan());
   return at_ == 0 ? std::min(next, live_->next_map()) : next;
 }
@@ -77,6 +78,7 @@ UTime MapperNode::next_wakeup() const {
 void MapperNode::step(UTime now) {
   if (live_) {
     live_->add_scans(now);
+    if (!live_->has_begun()) return;
     if (at_ == 0) {
       if (const auto map = live_->take_new(now)) publish(*map);
     }

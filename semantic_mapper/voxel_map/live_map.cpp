@@ -86,10 +86,13 @@ void LiveMap::add(const Scan& scan) {
   for (const Vec3& end : ends) walk_ray(grid, scan.sensor, end, [this](std::int64_t voxel) { pass(voxel); });
 }
 
-void LiveMap::set_octomap(const OctoMapFile& octomap) {
+bool LiveMap::set_octomap(const OctoMapFile& octomap) {
   VoxelPainter painter(base_.grid, VoxelLabel::Unknown);
   paint_octomap(octomap, painter);
-  octomap_ = painter.finish().labels;
+  std::vector<VoxelLabel> labels = painter.finish().labels;
+  if (std::ranges::all_of(labels, [](VoxelLabel label) { return label == VoxelLabel::Unknown; })) return false;
+  octomap_ = std::move(labels);
+  return true;
 }
 
 void LiveMap::free_start(const Body& body, const Vec3& p) {

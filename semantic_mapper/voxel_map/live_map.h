@@ -50,7 +50,8 @@ class LiveMap {
   /// Adds a scan. Points of a scan without classes are occupied, of class "unlabelled". O(points · range/resolution).
   void add(const Scan& scan);
   /// Sets the OctoMap of another program, in place of the one before. O(voxels + leaves).
-  void set_octomap(const OctoMapFile& octomap);
+  /// @return false if it marks no voxel. It then changes nothing.
+  [[nodiscard]] bool set_octomap(const OctoMapFile& octomap);
 
   /// Frees the unseen voxels within kStartMargin voxels of the box around the body at p. The vehicle starts there, and
   /// its sensors may not see above and below it.

@@ -148,7 +148,7 @@ TEST(LiveMap, TheNewestOctoMapCountsUnlessAFileOrAScanSaysMore) {
   VoxelMap base = unknown_map({10, 1, 1});
   base.labels[1] = Occupied;
   LiveMap map(base, {}, kRange);
-  map.set_octomap(row_of({Free, Free, Occupied, Unknown, Occupied}));
+  EXPECT_TRUE(map.set_octomap(row_of({Free, Free, Occupied, Unknown, Occupied})));
   const auto labels = [&] {
     const VoxelMap all = now(map);
     return std::vector<VoxelLabel>(all.labels.begin(), all.labels.begin() + 5);
@@ -157,7 +157,7 @@ TEST(LiveMap, TheNewestOctoMapCountsUnlessAFileOrAScanSaysMore) {
   EXPECT_EQ(now(map).class_names.at(now(map).classes[2]), kUnlabelled);
   map.add(scan_to({in_voxel(8)}, kSensor));
   EXPECT_EQ(labels(), (std::vector{Free, Occupied, Occupied, Free, Occupied})) << "a scan frees none of its voxels";
-  map.set_octomap(row_of({Free, Free, Free, Free, Free, Free, Free, Free, Free}));
+  EXPECT_TRUE(map.set_octomap(row_of({Free, Free, Free, Free, Free, Free, Free, Free, Free})));
   EXPECT_EQ(labels(), (std::vector{Free, Occupied, Free, Free, Free}));
   EXPECT_EQ(label_at(map, in_voxel(8)), Occupied) << "nor does an OctoMap free those of scans";
 }
