@@ -20,8 +20,8 @@ namespace {
 /// Participants of one host find each other by trying this many ports, as ROS's middlewares do. They are tried each
 /// second: participants that start later with ROS's default settings look for others by multicast only, not on `lo`.
 constexpr int kMostOnOneHost = 32;
-/// The largest message that is put together. A larger one is dropped.
-constexpr int kMaxMessageMiB = 32;
+/// The largest message that is put together. A larger one is dropped. OctoMaps have at most 59 MB (octomap_intake.cpp).
+constexpr int kMaxMessageMiB = 64;
 /// How long a write may wait for slow readers.
 constexpr dds_duration_t kNoWait = 0;
 

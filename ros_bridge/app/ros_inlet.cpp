@@ -78,10 +78,14 @@ void RosInlet::refuse(const std::string& topic, const std::string& why) {
   if (refused.refused++ == 0) log::warn("{}: a message is not used: {}", topic, refused.why);
 }
 
-void RosInlet::make(const std::string& topic, Attempt attempt, UTime now) {
+void RosInlet::make(const std::string& topic, Attempt attempt, UTime now, bool stays_valid) {
   const auto refusal = attempt(now);
   std::deque<Waiting>& waiting = topics_[topic].waiting;
-  if (refusal && refusal->may_come && waiting.size() < kMaxWaiting) {
+  if (stays_valid) waiting.clear();  // the newest takes the place of the one before
+  if (refusal && refusal->may_come && stays_valid) {
+    refuse(topic, refusal->why);
+    waiting.push_back({kNever, std::move(attempt)});
+  } else if (refusal && refusal->may_come && waiting.size() < kMaxWaiting) {
     waiting.push_back({now + kPatience, std::move(attempt)});
   } else if (refusal) {
     refuse(topic, refusal->why);

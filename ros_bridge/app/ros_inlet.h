@@ -47,8 +47,9 @@ struct InletOptions {
   std::string mode = "ROS 2";  ///< of VEHICLE_STATUS
 };
 
-/// Uses messages that a bridge received. A message that waits for a transform is tried again for kPatience. A refused
-/// message changes nothing; it is counted, and reported with its reason.
+/// Uses messages that a bridge received. A message that waits for a transform is tried again for kPatience. An OctoMap,
+/// which may be sent only once, is tried until it fits or a newer one comes. A refused message changes nothing; it is
+/// counted, and reported with its reason.
 ///
 /// With odometry it takes the vehicle's place: it publishes UAV_STATE and VEHICLE_STATUS, unless another process
 /// publishes VEHICLE_STATUS. Goals outside the flight box are refused.
@@ -91,7 +92,8 @@ class RosInlet {
   template <class M, class Decode>
   Attempt attempt(std::span<const std::uint8_t> bytes, const Decode& decode,
                   std::optional<Refusal> (RosInlet::*use)(const M&, UTime));
-  void make(const std::string& topic, Attempt attempt, UTime now);
+  /// @param stays_valid  its sender does not repeat it
+  void make(const std::string& topic, Attempt attempt, UTime now, bool stays_valid = false);
   void refuse(const std::string& topic, const std::string& why);
   [[nodiscard]] IntakeContext context(UTime now) const;
 
@@ -148,7 +150,7 @@ void RosInlet::receive(Input input, const std::string& topic, std::span<const st
     case Input::Following: return use(&RosInlet::use_following);
     case Input::Detections: return use(&RosInlet::use_detections);
     case Input::Cloud: return use(&RosInlet::use_cloud);
-    case Input::Octomap: return use(&RosInlet::use_octomap);
+    case Input::Octomap: return make(topic, attempt(bytes, decode, &RosInlet::use_octomap), now, true);
     case Input::Transforms: return use(&RosInlet::use_transforms);
     case Input::StaticTransforms: return use(&RosInlet::use_static_transforms);
   }

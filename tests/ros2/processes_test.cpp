@@ -268,12 +268,13 @@ TEST_F(Ros2Processes, AreTheVehicleAndItsDetector) {
   EXPECT_THAT(status->why_not, HasSubstr("the newest odometry is 0."));
 }
 
-/// A publisher that has sent its OctoMap before the bridge started, as octomap_server with a file does.
+/// A publisher that has sent its OctoMap before the bridge started, as octomap_server with a file does. The place of
+/// its frame comes later.
 TEST_F(Ros2Processes, PassALatchedOctoMapOnAgainAndAgain) {
   auto* octomap =
       ros.writer<octomap_msgs::msg::dds_::Octomap_PubSubType>("rt/octomap_binary", {.latched = true, .depth = 1});
   octomap_msgs::msg::dds_::Octomap_ message;
-  message.header().frame_id("map");
+  message.header().frame_id("lab");
   message.binary(true);
   message.id("OcTree");
   message.resolution(0.05);
@@ -282,8 +283,19 @@ TEST_F(Ros2Processes, PassALatchedOctoMapOnAgainAndAgain) {
   std::vector<MapFile> parts;
   bus->subscribe(kMapFile, [&](const MapFile& part) { parts.push_back(part); });
   start({"--receive", "octomap_binary"});
+  ASSERT_TRUE(wait_for([&] {
+    return std::any_of(beats.begin(), beats.end(), [](const Heartbeat& beat) {
+      return beat.waiting_for.find("no transform leads from lab to map") != std::string::npos;
+    });
+  })) << bridge->output;
+  auto* tf_static =
+      ros.writer<tf2_msgs::msg::dds_::TFMessage_PubSubType>("rt/tf_static", {.latched = true, .depth = 1});
+  tf2_msgs::msg::dds_::TFMessage_ place;
+  place.transforms().push_back(transform("map", "lab", Vec3(3.0, 0.0, 0.0), 0.0));
+  tf_static->write(&place);
   ASSERT_TRUE(wait_for([&] { return parts.size() >= 4; })) << bridge->output << "two parts, twice";
   EXPECT_EQ(parts[0].parts, 2);
+  EXPECT_EQ(parts[0].origin, Vec3(3.0, 0.0, 0.0));
   EXPECT_EQ(parts[2].at, parts[0].at) << "the same file again";
   std::string file(parts[0].bytes.begin(), parts[0].bytes.end());
   file.append(parts[1].bytes.begin(), parts[1].bytes.end());
