@@ -19,6 +19,8 @@ constexpr Duration kStatusPeriod{100'000}, kReportPeriod{10'000'000};
 constexpr Duration kFirstHeartbeat{2'000'000};
 /// VEHICLE_STATUS has 10 Hz: without one for this long there is no other bridge.
 constexpr Duration kListenFirst{350'000}, kOtherSilence{1'000'000};
+/// A goal this soon after the bridge stood back was sent before its sender knew: three VEHICLE_STATUS.
+constexpr Duration kOrdersUnderWay{300'000};
 
 }  // namespace
 
@@ -77,7 +79,11 @@ void MavlinkNode::on_goal(const Goal& goal) {
   const bool first = !goal_id_, news = !first && goal.id > *goal_id_;
   if (first || news) goal_id_ = goal.id;
   if (first && goal.mode == GoalMode::Go) bridge_.flight_is_under_way();
-  if (news && goal.mode == GoalMode::Go) bridge_.order_flight();
+  if (!news || goal.mode != GoalMode::Go) return;
+  if (stood_back_ && bus_.clock().now() - *stood_back_ < kOrdersUnderWay) {
+    return log::warn("GOAL {} orders no flight: the bridge stood back while it was sent", goal.id);
+  }
+  bridge_.order_flight();
 }
 
 void MavlinkNode::on_status(const VehicleStatus& status) {
@@ -166,6 +172,11 @@ void MavlinkNode::publish(UTime now) {
   if (const auto truth = bridge_.truth(); truth && truth->at > published_truth_) {
     published_truth_ = truth->at;
     bus_.publish(channels::kVehicleTruth, *truth);
+  }
+  if (bridge_.stage() != Stage::StoodBack) {
+    stood_back_.reset();
+  } else if (!stood_back_) {
+    stood_back_ = now;
   }
   const VehicleStatus status = bridge_.status(now);
   if (now < next_status_ && status.following == followed_) return;

@@ -71,6 +71,7 @@ class MavlinkNode final : public Node {
   std::optional<std::int64_t> goal_id_;
   UTime published_state_, published_truth_;
   bool followed_ = false;
+  std::optional<UTime> stood_back_;  ///< since when the bridge stands back; nullopt: it does not
   std::uint64_t signature_time_ = 0;
 };
 

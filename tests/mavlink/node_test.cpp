@@ -119,6 +119,26 @@ TEST_F(BridgeNode, AskedToEndWhileAPilotFliesServesThemUntilTheVehicleIsDisarmed
   EXPECT_FALSE(link_->autopilot.armed());
 }
 
+/// tern-mission may send a goal before it knows that a pilot has taken over.
+TEST_F(BridgeNode, AGoalThatWasUnderWayTakesNothingFromAPilot) {
+  ASSERT_TRUE(until_climbed());
+  Goal goal;
+  goal.id = 1;
+  goal.position = Vec3(5, 0, 2);
+  runner_.observer().publish(channels::kGoal, goal);
+  run(1.0);
+  ASSERT_EQ(link_->autopilot.mode(), "OFFBOARD");
+  link_->command(kPilot);
+  ASSERT_TRUE(until([&] { return status_.mode == "POSCTL"; }));
+  goal.id = 2;
+  runner_.observer().publish(channels::kGoal, goal);
+  run(5.0);
+  EXPECT_EQ(link_->autopilot.mode(), "POSCTL");
+  goal.id = 3;
+  runner_.observer().publish(channels::kGoal, goal);
+  EXPECT_TRUE(until([&] { return link_->autopilot.mode() == "OFFBOARD"; }, 10.0)) << "an order of afterwards counts";
+}
+
 TEST_F(BridgeNode, AskedAgainItEndsAndTellsThatTheVehicleIsArmed) {
   ASSERT_TRUE(until_climbed());
   link_->command(kPilot);
