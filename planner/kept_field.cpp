@@ -22,7 +22,7 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
                           std::vector<Box> static_boxes, const Vec3& start) {
   const auto made = [&](const GoalFieldKey& with_body, std::vector<Box> boxes) {
     auto field = std::make_shared<const GoalField>(make_goal_field(with_body, map, boxes, start));
-    return KeptField{std::move(field), with_body, std::move(boxes)};
+    return KeptField{std::move(field), with_body, std::move(boxes), false};
   };
   if (!(key.speed > 0.0)) return made(key, std::move(static_boxes));
   GoalFieldKey rounded = key;
@@ -30,7 +30,10 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
   std::vector<Box> boxes = static_boxes;
   std::ranges::transform(boxes, boxes.begin(), rounded_up);
   KeptField kept = made(rounded, std::move(boxes));
-  return kept.field->path_from(start) ? kept : made(key, std::move(static_boxes));
+  if (kept.field->path_from(start)) return kept;
+  kept = made(key, std::move(static_boxes));
+  kept.is_blocked = !kept.field->path_from(start);
+  return kept;
 }
 
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
@@ -39,12 +42,13 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
   if (obstacles.resting.empty() || kept.field->path_from(start)) return kept;
   kept = make_kept_field(key, map, obstacles.fixed, start);
   kept.static_boxes = obstacles.all();
+  kept.is_blocked = true;
   return kept;
 }
 
 bool serves(const KeptField& kept, const GoalFieldKey& wanted, const std::vector<Box>& static_boxes) {
   if (kept.key == wanted) return true;
-  if (!(wanted.speed > 0.0)) return false;
+  if (kept.is_blocked || !(wanted.speed > 0.0)) return false;
   GoalFieldKey key = wanted;
   key.body = kept.key.body;
   key.statics = kept.key.statics;

@@ -18,6 +18,7 @@ struct KeptField {
   std::shared_ptr<const GoalField> field;
   GoalFieldKey key;               ///< its body may be larger than the wanted one
   std::vector<Box> static_boxes;  ///< they may be larger than the wanted ones
+  bool is_blocked = false;        ///< around all boxes no way led from the start: it serves equal keys only
 };
 
 /// Returns make_goal_field(key, …). With an error price (speed > 0) the sides of body and static boxes are first
@@ -32,7 +33,8 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
                           const PathObstacles& obstacles, const Vec3& start);
 
 /// Whether a field also serves other inputs. It serves equal keys. With an error price it also serves a body and static
-/// boxes that its own contain, each smaller by at most 3 kFieldStep per side.
+/// boxes that its own contain, each smaller by at most 3 kFieldStep per side. A blocked field does not: a smaller body
+/// may find a way.
 /// @param static_boxes  those whose digest is wanted.statics
 bool serves(const KeptField& kept, const GoalFieldKey& wanted, const std::vector<Box>& static_boxes);
 

@@ -14,6 +14,13 @@ bool is_at_rest(const Track& track) {
   return (track.motion.sample(later).p - track.motion.sample(from).p).norm() <= StaticTracks::kRestingWay;
 }
 
+/// While an obstacle comes into view, one face of its box moves; when it moves, both do.
+bool has_moved(const Box& from, const Box& to) {
+  const Vec3 low = to.min() - from.min(), high = to.max() - from.max();
+  return low.cwiseMin(high).maxCoeff() > StaticTracks::kMovedAway ||
+         low.cwiseMax(high).minCoeff() < -StaticTracks::kMovedAway;
+}
+
 }  // namespace
 
 Box rounded_out(const Box& box, double step, double tolerance) {
@@ -73,9 +80,9 @@ bool StaticTracks::add_resting(const TrackSet& set) {
   bool changed = false;
   for (const Track& track : set.tracks) {
     if (track.kind != TrackKind::Estimated) continue;
-    const Vec3 place = track.motion.sample(track.motion.start).p;
+    const Box place = box_around(track.motion.sample(track.motion.start).p, track.half_extents);
     const auto known = resting_.find(track.id);
-    const bool is_gone = known != resting_.end() && (known->second.place - place).norm() > kMovedAway;
+    const bool is_gone = known != resting_.end() && has_moved(known->second.place, place);
     if (known != resting_.end() && (is_gone || !is_at_rest(track))) {
       changed = changed || known->second.box.has_value();
       resting_.erase(known);

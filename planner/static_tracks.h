@@ -38,14 +38,14 @@ struct PathObstacles {
 /// | a set omits another track                                 | the track is kept                   |
 /// | a set comes from another predictor (a new sender epoch)   | all tracks are forgotten            |
 ///
-/// An estimated track is *at rest* if its centre stays within kRestingWay for a second. The search of a plan finds ways
-/// around obstacles that are smaller than its reach; around wider ones, only a path to the goal does.
+/// An estimated track is *at rest* if it is predicted to stay within kRestingWay for a second. The search of a plan
+/// finds ways around obstacles that are smaller than its reach; around wider ones, only a path to the goal does.
 ///
 /// | event                                                            | effect                                    |
 /// |------------------------------------------------------------------|-------------------------------------------|
 /// | a track of at least kWide is at rest for kRestedFor              | its box with α is kept                    |
 /// | its newest box leaves the kept one, or is smaller by kMuchSmaller | the box is replaced by the newest         |
-/// | the track moves, or is farther than kMovedAway from where it was | it is forgotten, and may come to rest anew |
+/// | the track moves, or both faces of an axis do by kMovedAway       | it is forgotten, and may come to rest anew |
 /// | sets omit it for kOmittedFor                                     | it is forgotten                           |
 ///
 /// A false track that appears once thus blocks a path only until the next set. The state depends on the sets alone.
@@ -77,7 +77,7 @@ class StaticTracks {
   };
   struct Resting {
     UTime since, seen;
-    Vec3 place;              // where it came to rest
+    Box place;               // where it came to rest
     std::optional<Box> box;  // once it has rested for kRestedFor
   };
   bool add_static(const TrackSet& set);

@@ -173,7 +173,7 @@ TEST(PricedWay, FieldServesSidesAtMultiplesOfItsStep) {
 }
 
 TEST(PricedWay, WithoutAPriceAFieldServesItsOwnInputsAlone) {
-  KeptField kept{nullptr, with_body(0.2), {}};
+  KeptField kept{nullptr, with_body(0.2), {}, false};
   kept.key.speed = 0.0;
   GoalFieldKey smaller = kept.key;
   smaller.body = box_around(Vec3::Zero(), Vec3::Constant(0.19));
@@ -187,6 +187,15 @@ TEST(PricedWay, GoesThroughAPassageThatTheRoundedBodyWouldClose) {
   const KeptField kept = kept_for(0.22, wall);
   EXPECT_TRUE(kept.key == with_body(0.22));
   EXPECT_FALSE(serves(kept, with_body(0.23), wall));
+}
+
+TEST(PricedWay, ABlockedFieldServesNoSmallerBody) {
+  const std::vector<Box> wall{Box(Vec3(20, -30, -2), Vec3(21, -0.26, 5)), Box(Vec3(20, 0.26, -2), Vec3(21, 30, 5))};
+  const PricedWorld& world = lake_at_20();
+  const KeptField kept = make_kept_field(with_body(0.3), world.map, wall, world.start);
+  ASSERT_FALSE(kept.field->path_from(world.start));
+  EXPECT_FALSE(serves(kept, with_body(0.22), wall)) << "it fits the gap";
+  EXPECT_TRUE(serves(kept, kept.key, wall)) << "the same field is not made again";
 }
 
 /// The least J of all ways with two corners: brute force.

@@ -75,6 +75,18 @@ TEST(StaticTracks, AWideTrackThatHasRestedIsAnObstacleOfThePath) {
   EXPECT_EQ(statics.digest(), digest) << "noise changes no path";
 }
 
+TEST(StaticTracks, AWallThatComesIntoViewStepByStepRests) {
+  StaticTracks statics;
+  for (int k = 0; k < 100; ++k) {
+    const double width = 6.0 + 0.1 * k;  // its lower face stays, its centre moves at 1 m/s
+    TrackSet set = estimated(1.0 + 0.05 * k, width);
+    set.tracks[0].motion.pieces[0].coefficients(1, 0) = 0.5 * width;
+    statics.add(set);
+    ASSERT_EQ(statics.obstacles().resting.size(), k < 40 ? 0U : 1U) << k;
+  }
+  EXPECT_GE(statics.obstacles().resting[0].max().y(), 15.0);
+}
+
 TEST(StaticTracks, ARestingTrackThatBeginsToMoveLeavesThePath) {
   StaticTracks statics;
   watch(statics, 1.0, 4.0, 6.0);
