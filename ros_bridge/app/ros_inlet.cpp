@@ -10,6 +10,7 @@
 #include "ros_bridge/slope.h"
 #include "runtime/config.h"
 #include "runtime/log.h"
+#include "runtime/node.h"
 
 namespace tern::ros {
 namespace {
