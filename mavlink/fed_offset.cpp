@@ -31,6 +31,7 @@ const MotionSample& FedOffset::step(const Vec3& acceleration, const CopterLoops&
     e.p += h * e.v + 0.5 * h * h * e.a;
     e.v += h * e.a;
   }
+  if (!(e.p.norm() <= kLargest)) reset();
   return e;
 }
 

@@ -24,10 +24,13 @@ struct CopterLoops {
 ///
 /// The offset is the solution e(t), from rest, for which that is the wanted acceleration u(t). Under a constant u it
 /// vanishes: the integrator takes over. The loops are linear, so they correct wind and errors of u independently of it.
+/// With gains for which these loops diverge, the offset begins anew at kLargest.
 ///
 /// Source: AC_PosControl::NE_update_controller and AC_PID_2D, Copter 4.8-dev.
 class FedOffset {
  public:
+  static constexpr double kLargest = 5.0;  ///< m
+
   /// Advances by dt, s, with this acceleration (level part; W, m/s²). @return e, ė, ë; the vertical parts are zero
   const MotionSample& step(const Vec3& acceleration, const CopterLoops& loops, double dt);
   /// Begins anew, as when the first setpoint is sent.

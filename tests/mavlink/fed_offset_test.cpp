@@ -102,6 +102,18 @@ Errors fly_slalom(double drag_per_s, const BridgeConfig& bridge, double input_tc
   return errors;
 }
 
+TEST(FedOffset, IsBoundedAndFiniteWhateverTheGains) {
+  for (const double gain : {1e4, -5.0, std::nan(""), 1e300}) {
+    FedOffset fed;
+    const CopterLoops loops{.velocity_p = gain};
+    for (int k = 0; k < 1'000; ++k) {
+      const MotionSample& offset = fed.step(Vec3(3, -1, 0), loops, 0.02);
+      ASSERT_LE(offset.p.norm(), FedOffset::kLargest) << gain << ", step " << k;
+      ASSERT_TRUE(offset.v.allFinite() && offset.a.allFinite()) << gain << ", step " << k;
+    }
+  }
+}
+
 TEST(FedOffset, ACopterFollowsASlalomAtFourMetresPerSecond) {
   for (const double drag : {0.15, 0.5}) {
     for (const double input_tc : {0.1, 0.15}) {

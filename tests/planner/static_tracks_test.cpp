@@ -80,7 +80,7 @@ TEST(StaticTracks, AWallThatComesIntoViewStepByStepRests) {
   for (int k = 0; k < 100; ++k) {
     const double width = 6.0 + 0.1 * k;  // its lower face stays, its centre moves at 1 m/s
     TrackSet set = estimated(1.0 + 0.05 * k, width);
-    set.tracks[0].motion.pieces[0].coefficients(1, 0) = 0.5 * width;
+    set.tracks[0].motion.pieces[0].coefficients(1, 3) = 0.5 * width;
     statics.add(set);
     ASSERT_EQ(statics.obstacles().resting.size(), k < 40 ? 0U : 1U) << k;
   }
