@@ -207,7 +207,7 @@ void SimulatorNode::on_map(const MapChunk& chunk) {
   if (!*complete) return;
   std::vector<Box> occupied = cover_with_boxes(map_.take(), false);
   sensors_.set_map(occupied);
-  if (const auto taken = referee_.set_map(std::move(occupied)); !taken) {
+  if (const auto taken = referee_.set_map(occupied); !taken) {
     return log::error("map {:016x} is not judged: {}", chunk.version, taken.error().message);
   }
   needs_map_ = false;
