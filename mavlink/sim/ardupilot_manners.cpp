@@ -62,7 +62,7 @@ void SimulatedAutopilot::fly_guided(UTime t) {
   const MotionSample& desired = shaper_.step(setpoint, level_shaping(), vertical_shaping(), dt);
   // The model's own level loops see no error: those of GuidedLoops are in the acceleration.
   const MotionSample estimate = model_.estimate().motion;
-  command_.motion = loops_.step(desired, estimate, level_loops(), parameters_["ATC_INPUT_TC"], dt);
+  command_.motion = loops_.step(desired, estimate, level_loops(), parameters_.at("ATC_INPUT_TC"), dt);
   command_.yaw = target_.yaw;
 }
 

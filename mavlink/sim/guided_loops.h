@@ -16,8 +16,7 @@ class GuidedLoops {
   /// Begins with filters at rest.
   void restart() { *this = {}; }
   /// Advances by dt, s. @param input_tc  ATC_INPUT_TC, s
-  /// @return a command with the estimate's level place and velocity, the level acceleration to tilt for, and the
-  /// desired
+  /// @return a command: level place and velocity of the estimate, the level acceleration to tilt for, and the desired
   ///   vertical motion
   MotionSample step(const MotionSample& desired, const MotionSample& estimate, const CopterLoops& loops,
                     double input_tc, double dt);

@@ -16,7 +16,7 @@ namespace {
 
 using testing::site_without_origin;
 
-/// What a ground station sends. It outlives the processes that receive it.
+/// The frames of a ground station, on their way. They outlive the processes that receive them.
 using Cable = std::deque<mavlink::Bytes>;
 
 class StationLink final : public mavlink::Link {
