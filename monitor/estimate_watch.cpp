@@ -5,20 +5,14 @@
 #include <cmath>
 
 #include "core/world/frames.h"
+#include "core/world/stated_bound.h"
 
 namespace tern {
 namespace {
 
 constexpr Duration kRemembered{1'000'000};
-constexpr double kQuantile = 11.345;  ///< χ² of three degrees of freedom, 99 %
 /// A longer time without ODOMETRY is not counted as blind: the estimator was dead.
 constexpr double kLongestGap = 0.5;  // s
-
-Eigen::Matrix3d position_covariance(const Odometry& odometry) {
-  Eigen::Matrix3d covariance;
-  for (int k = 0; k < 9; ++k) covariance(k / 3, k % 3) = odometry.pose_covariance[idx(6 * (k / 3) + k % 3)];
-  return covariance;
-}
 
 }  // namespace
 
@@ -54,7 +48,7 @@ void EstimateWatch::compare() {
 void EstimateWatch::compare(const Odometry& odometry, const Vec3& truth) {
   const OdometryOffset offset{odometry.p_WO, odometry.yaw_WO, odometry.epoch};
   const Vec3 error = offset.to_W(PointInO{odometry.p_OB}).xyz - truth;
-  const Eigen::Matrix3d covariance = position_covariance(odometry);
+  const Eigen::Matrix3d covariance = position_covariance(odometry.pose_covariance);
   const double nees = error.dot(covariance.ldlt().solve(error));
   ++count_;
   sums_.end_m = error.norm();
@@ -64,7 +58,7 @@ void EstimateWatch::compare(const Odometry& odometry, const Vec3& truth) {
   sums_.corrections = odometry.epoch;
   squares_ += error.squaredNorm();
   nees_ += nees / 3.0;
-  covered_ += nees < kQuantile ? 1.0 : 0.0;
+  covered_ += nees < kChiSquared3 ? 1.0 : 0.0;
   if (compared_ && odometry.tracks < kFewTracks) {
     const double passed = (odometry.at - *compared_).seconds();
     if (passed < kLongestGap) sums_.blind_s += passed;

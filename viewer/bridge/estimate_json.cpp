@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/world/frames.h"
+#include "core/world/stated_bound.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/scene_json.h"
 
@@ -13,7 +14,7 @@ namespace tern {
 namespace {
 
 /// √χ² of three degrees of freedom at 99 %: half-axes of the ellipsoid over standard deviations.
-const double kBound = std::sqrt(11.345);
+const double kBound = std::sqrt(kChiSquared3);
 /// The truth and a frame of features stand for the estimate's time up to this difference.
 constexpr Duration kSameTime{150'000};
 /// Features farther than this are left out: their distance by disparity says nothing, m.
@@ -35,9 +36,7 @@ Vec3 place_of(const Odometry& odometry) { return offset_of(odometry).to_W(PointI
 
 /// Returns the half-axes of the 99 % ellipsoid of the position as columns, W.
 std::pair<Vec3, Mat3> ellipsoid_of(const Odometry& odometry) {
-  Mat3 P;
-  for (int k = 0; k < 9; ++k) P(k / 3, k % 3) = odometry.pose_covariance[idx(6 * (k / 3) + k % 3)];
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(P);
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(position_covariance(odometry.pose_covariance));
   Mat3 axes = solver.eigenvectors();
   if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
   return {kBound * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(), axes};
