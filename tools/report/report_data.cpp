@@ -1,6 +1,5 @@
 #include "tools/report/report_data.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "core/world/frames.h"
 #include "core/world/names.h"
 #include "core/world/replan_samples.h"
+#include "core/world/stated_bound.h"
 #include "runtime/clock.h"
 #include "tools/report/map_runs.h"
 
@@ -112,7 +112,6 @@ json path_of(const FlightRecord& record, const Audit& audit) {
 
 /// The error of ODOMETRY's position in W against VEHICLE_TRUTH, and the bound that it states: √(χ²(3, 0.99) λ_max(Σ)).
 json estimate_of(const FlightRecord& record) {
-  constexpr double kQuantile = 3.368;
   const std::size_t share = std::max<std::size_t>(1, (record.odometry.size() + kMaxPathPoints - 1) / kMaxPathPoints);
   Columns columns{"t", "error", "bound", "tracks", "rejected", "x", "y", "z"};
   for (std::size_t k = 0; k < record.odometry.size(); k += share) {
@@ -121,12 +120,8 @@ json estimate_of(const FlightRecord& record) {
     if (after == record.states.end()) break;
     const double back = (after->at - odometry.at).seconds();
     const Vec3 p = OdometryOffset{odometry.p_WO, odometry.yaw_WO, odometry.epoch}.to_W(PointInO{odometry.p_OB}).xyz;
-    Eigen::Matrix3d covariance;
-    for (int i = 0; i < 9; ++i) covariance(i / 3, i % 3) = odometry.pose_covariance[idx(6 * (i / 3) + i % 3)];
-    const double largest =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues()[2];
     columns.add({record.seconds(odometry.at), (p - after->motion.p + back * after->motion.v).norm(),
-                 kQuantile * std::sqrt(std::max(largest, 0.0)), static_cast<double>(odometry.tracks),
+                 stated_bound(odometry.pose_covariance), static_cast<double>(odometry.tracks),
                  static_cast<double>(odometry.rejected), p.x(), p.y(), p.z()});
   }
   return columns.take();
