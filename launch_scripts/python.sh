@@ -3,7 +3,7 @@
 #     python.sh                                        an interactive Python
 #     python.sh docs/examples/read_a_log.py flights/…  a script
 #     python.sh --test                                 the package's tests
-# The first build compiles the libraries for a shared object, in build/python, and takes some minutes.
+# The first build compiles what the package shares with the programs, in build/release, and takes some minutes.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
@@ -19,6 +19,6 @@ target=python
   output=$(cmake --preset python 2>&1) || { printf '%s\n' "$output" >&2 && die "cmake could not configure"; }
   cmake --build --preset python --target "$target" >&2
 )
-[[ ${1:-} != --test ]] || exec ctest --test-dir "$TERN_ROOT/build/python" -L python --output-on-failure --no-tests=error "${@:2}"
-export PYTHONPATH="$TERN_ROOT/build/python/python${PYTHONPATH:+:$PYTHONPATH}"
+[[ ${1:-} != --test ]] || exec ctest --test-dir "$TERN_ROOT/build/release" -L python --output-on-failure --no-tests=error "${@:2}"
+export PYTHONPATH="$TERN_ROOT/build/release/python${PYTHONPATH:+:$PYTHONPATH}"
 exec /usr/bin/python3 "$@"

@@ -13,7 +13,7 @@ import numpy
 
 import tern
 
-BIN = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/python/bin")
+BIN = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/bin")
 DEMO = {"world.count": 40, "uav.goal": [14, 0, 1], "executor.rate_hz": 10}
 
 
