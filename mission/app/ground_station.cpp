@@ -36,9 +36,10 @@ bool is_flown(const Progress* progress) {
   return state == 3 || state == 4;
 }
 
-/// The seq of a step's item: items count from 1, and seq from 0.
-std::uint16_t seq_of(const Progress& progress, int step) {
-  return static_cast<std::uint16_t>(progress.mission().steps[idx(step)].item - 1);
+/// The steps that are done.
+int done_steps(const Progress* progress) {
+  if (progress == nullptr) return 0;
+  return progress->step() + (progress->stand() == Stand::Done ? 1 : 0);
 }
 
 }  // namespace
@@ -49,7 +50,18 @@ GroundStation::GroundStation(std::unique_ptr<mavlink::Link> link, std::uint8_t s
 
 void GroundStation::send(const mavlink::Frame& frame) { link_->send(mavlink::to_bytes(frame)); }
 
-void GroundStation::step(UTime now, const Progress* progress, const UavState* state) {
+void GroundStation::set_mission(const std::vector<Step>& steps, const Site& site) {
+  server_.set_items(items_of(steps, site));
+  seqs_ = seqs_of(steps);
+}
+
+/// Items count from 1, and seq from 0.
+void GroundStation::set_uploaded(const std::vector<Step>& steps) {
+  seqs_.clear();
+  for (const Step& step : steps) seqs_.push_back(static_cast<std::uint16_t>(step.item - 1));
+}
+
+void GroundStation::step(UTime now) {
   if (now < next_look_) return;
   if (began_ == UTime{}) began_ = now;
   next_look_ = now + kLookPeriod;
@@ -63,25 +75,23 @@ void GroundStation::step(UTime now, const Progress* progress, const UavState* st
   }
   for (const mavlink::Frame& frame : server_.step(now)) send(frame);
   for (const std::string& line : link_->take_log_lines()) log::info("{}", line);
-  report(now, progress, state);
 }
 
 void GroundStation::report(UTime now, const Progress* progress, const UavState* state) {
-  const int step = progress == nullptr ? 0 : progress->step();
+  const auto seq_of = [&](int step) { return seqs_[idx(step)]; };
   if (now >= next_report_) {
     next_report_ = now + kReportPeriod;
     const auto mode = static_cast<std::uint8_t>(kReadyMode | (is_flown(progress) ? kArmed : 0));
     send(server_.frame_of(mavlink::Heartbeat{0, kQuadrotor, kGeneric, mode, kActive, kVersion}));
     mavlink::MissionCurrent current;
-    current.seq = progress == nullptr ? std::uint16_t{0} : seq_of(*progress, step);
+    current.seq = progress == nullptr ? std::uint16_t{0} : seq_of(progress->step());
     current.total = static_cast<std::uint16_t>(server_.items().size());
     current.mission_state = state_of(progress);
     send(server_.frame_of(current));
   }
-  if (progress != nullptr && step > reported_step_) {
-    send(server_.frame_of(mavlink::MissionItemReached{seq_of(*progress, step - 1)}));
-  }
-  reported_step_ = step;
+  const int done = done_steps(progress);
+  if (done > reported_done_) send(server_.frame_of(mavlink::MissionItemReached{seq_of(done - 1)}));
+  reported_done_ = done;
   if (now < next_place_ || state == nullptr || !frame_) return;
   next_place_ = now + kPlacePeriod;
   const GeodeticPoint place = frame_->from_world(state->motion.p);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/world/vehicle.h"
 #include "geodesy/local_frame.h"
@@ -20,23 +21,27 @@ class GroundStation {
   GroundStation(std::unique_ptr<mavlink::Link> link, std::uint8_t system, std::optional<LocalFrame> frame,
                 MissionTaker taker);
 
-  /// Receives and answers what has come, and sends what is due.
-  /// @param progress, state  null: none yet
-  void step(UTime now, const Progress* progress, const UavState* state);
+  /// Receives and answers what has come. An upload or an order may change the mission.
+  void step(UTime now);
+  /// Sends what is due of the state. @param progress, state  null: none yet
+  void report(UTime now, const Progress* progress, const UavState* state);
   /// When step() is due next.
   [[nodiscard]] UTime next_wakeup() const { return next_look_; }
-  void set_items(std::vector<mavlink::MissionItemInt> items) { server_.set_items(std::move(items)); }
+  /// Sets a mission that was not uploaded to this process: a download returns its steps. Empty: there is none.
+  void set_mission(const std::vector<Step>& steps, const Site& site);
+  /// Sets the mission that was uploaded: its items are known.
+  void set_uploaded(const std::vector<Step>& steps);
 
  private:
   void send(const mavlink::Frame& frame);
-  void report(UTime now, const Progress* progress, const UavState* state);
 
   std::unique_ptr<mavlink::Link> link_;
   mavlink::Parser parser_;
   MissionServer server_;
   std::optional<LocalFrame> frame_;
   UTime next_look_, next_report_, next_place_, began_;
-  int reported_step_ = 0;
+  std::vector<std::uint16_t> seqs_;  // of the steps' items
+  int reported_done_ = 0;            // steps
 };
 
 }  // namespace tern::mission

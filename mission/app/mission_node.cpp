@@ -38,13 +38,14 @@ MissionNode::MissionNode(Bus& bus, MissionSetup setup)
   if (!setup_.mission) {
     if (auto steps = record_.read_upload()) {
       setup_.mission = Mission{kUploaded, std::move(*steps)};
+      is_uploaded_ = true;
       is_ordered_ = record_.read(*setup_.mission).has_value();
       log::info("has the mission that was uploaded before the restart; it was {}",
                 is_ordered_ ? "started" : "not started");
     }
   }
   if (!setup_.mission) return;
-  if (station_) station_->set_items(items_of(setup_.mission->steps, setup_.site));
+  if (station_) station_->set_mission(setup_.mission->steps, setup_.site);
   set_mission(std::move(*setup_.mission));
 }
 
@@ -68,6 +69,7 @@ void MissionNode::on_map(const MapChunk& chunk) {
   if (blocked.empty()) return;
   if (record_.read(progress_->mission())) return log::warn("{}: {}", progress_->mission().file, blocked);
   log::error("{}: {}; move it, or correct map and fences", progress_->mission().file, blocked);
+  if (is_uploaded_) return forget_mission();
   exit_code_ = kExitCannotFly;
 }
 
@@ -98,9 +100,7 @@ std::string MissionNode::take_upload(const std::vector<Item>& items) {
   if (is_flown) return "a mission is being flown: let it end first";
   if (!map_) return "tern-mission has no map yet: upload again when the mapper has sent it";
   if (items.empty()) {
-    record_.forget();
-    progress_.reset();
-    is_ordered_ = has_started_ = false;
+    forget_mission();
     return "";
   }
   auto steps = steps_of(items, setup_.site);
@@ -112,10 +112,18 @@ std::string MissionNode::take_upload(const std::vector<Item>& items) {
   }
   record_.forget();
   if (!record_.write_upload(mission.steps)) log::error("the uploaded mission cannot be recorded; a restart loses it");
+  station_->set_uploaded(mission.steps);
   set_mission(std::move(mission));
   is_ordered_ = false;
-  is_fresh_ = true;
+  is_fresh_ = is_uploaded_ = true;
   return "";
+}
+
+void MissionNode::forget_mission() {
+  record_.forget();
+  progress_.reset();
+  is_ordered_ = has_started_ = false;
+  if (station_) station_->set_mission({}, setup_.site);
 }
 
 std::string MissionNode::obey(Order order) {
@@ -141,7 +149,10 @@ UTime MissionNode::next_wakeup() const {
 
 void MissionNode::step(UTime now) {
   if (exit_code_) return;
-  if (station_) station_->step(now, progress_ ? &*progress_ : nullptr, state_ ? &*state_ : nullptr);
+  if (station_) {
+    station_->step(now);  // may replace or end progress_
+    station_->report(now, progress_ ? &*progress_ : nullptr, state_ ? &*state_ : nullptr);
+  }
   if (!has_started_ && map_ && state_ && now >= listens_until_) is_ordered_ ? start(now) : hold(now);
   if (!has_started_) {
     if (now >= listens_until_ && !map_) listens_until_ = now + kListen;

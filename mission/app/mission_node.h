@@ -35,7 +35,7 @@ struct MissionSetup {
 /// GOAL.
 ///
 /// 1. It waits for a map, and refuses steps in occupied voxels. A file's mission then ends the process with
-///    kExitCannotFly, before any goal is sent; an upload is refused.
+///    kExitCannotFly, before any goal is sent. An upload is refused, and one from before a restart is forgotten.
 /// 2. It listens for kListen. The vehicle repeats its goal at 1 Hz, so after a restart the mission continues there.
 /// 3. Without a mission it sends a goal to hold, until one is uploaded and started.
 /// 4. It sends goals until the mission is done or has failed. HEARTBEAT then says Finished or Failed, and the last goal
@@ -60,6 +60,7 @@ class MissionNode final : public Node {
   void set_mission(Mission mission);
   [[nodiscard]] std::string take_upload(const std::vector<Item>& items);
   [[nodiscard]] std::string obey(Order order);
+  void forget_mission();
   void start(UTime now);
   void hold(UTime now);
   void note();
@@ -74,7 +75,8 @@ class MissionNode final : public Node {
   BatchCollector<TrackSet> batches_;
   std::optional<UavState> state_;
   bool following_ = false;
-  bool is_ordered_ = false;  ///< to fly: by a file, or by the ground station
+  bool is_ordered_ = false;   ///< to fly: by a file, or by the ground station
+  bool is_uploaded_ = false;  ///< the mission is not a file's
   bool has_started_ = false;
   std::optional<Goal> heard_;  ///< the goal with the largest id, before the start
   std::optional<Goal> hold_;   ///< the goal while there is no mission

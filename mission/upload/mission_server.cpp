@@ -68,6 +68,16 @@ std::vector<MissionItemInt> items_of(const std::vector<Step>& steps, const Site&
   return items;
 }
 
+std::vector<std::uint16_t> seqs_of(const std::vector<Step>& steps) {
+  std::vector<std::uint16_t> seqs;
+  std::uint16_t next = 0;
+  for (const Step& step : steps) {
+    seqs.push_back(next);
+    if (step.action != Action::Follow) ++next;
+  }
+  return seqs;
+}
+
 bool MissionServer::is_for_me(std::uint8_t system, std::uint8_t component) const {
   return (system == 0 || system == self_.system) && (component == 0 || component == self_.component);
 }
@@ -123,7 +133,10 @@ void MissionServer::on_count(const MissionCount& count, Address peer, UTime now,
 }
 
 void MissionServer::on_item(const MissionItemInt& item, Address peer, UTime now, Frames& out) {
-  if (!upload_ || upload_->peer != peer || item.mission_type != kMissionType) return;
+  if (item.mission_type != kMissionType) return;
+  const bool is_last_again = !upload_ && ended_ && ended_->peer == peer && item.seq + std::size_t{1} == ended_->count;
+  if (is_last_again) return acknowledge(ended_->result, kMissionType, peer, out);
+  if (!upload_ || upload_->peer != peer) return;
   if (item.seq == upload_->items.size()) {
     upload_->items.push_back(item);
     upload_->tries = 0;
@@ -135,10 +148,11 @@ void MissionServer::finish(Address peer, Frames& out) {
   std::vector<Item> items;
   for (const MissionItemInt& item : upload_->items) items.push_back(item_of(item));
   const std::string why = taker_.take(items);
+  ended_ = Ended{peer, upload_->count, why.empty() ? kAccepted : kInvalid};
   if (why.empty()) items_ = std::move(upload_->items);
   upload_.reset();
   if (!why.empty()) say(why, out);
-  acknowledge(why.empty() ? kAccepted : kInvalid, kMissionType, peer, out);
+  acknowledge(ended_->result, kMissionType, peer, out);
 }
 
 void MissionServer::request(UTime now, Frames& out) {

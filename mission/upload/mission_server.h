@@ -31,6 +31,7 @@ struct MissionTaker {
 /// | MISSION_COUNT                          | MISSION_REQUEST_INT 0                                   |
 /// | MISSION_ITEM_INT, the expected one     | MISSION_REQUEST_INT of the next; at the end MISSION_ACK |
 /// | MISSION_ITEM_INT, another one          | MISSION_REQUEST_INT of the expected one                 |
+/// | the last MISSION_ITEM_INT again        | the same MISSION_ACK: it was lost on its way            |
 /// | MISSION_REQUEST_LIST                   | MISSION_COUNT                                           |
 /// | MISSION_REQUEST_INT, MISSION_REQUEST   | MISSION_ITEM_INT; beyond the last item MISSION_ACK      |
 /// | MISSION_CLEAR_ALL                      | MISSION_ACK                                             |
@@ -68,6 +69,12 @@ class MissionServer {
     UTime asked;
     int tries = 0;
   };
+  /// An upload that has ended.
+  struct Ended {
+    mavlink::Address peer;
+    std::size_t count = 0;
+    std::uint8_t result = 0;
+  };
   using Frames = std::vector<mavlink::Frame>;
   [[nodiscard]] bool is_for_me(std::uint8_t system, std::uint8_t component) const;
   template <class M, class Handle>
@@ -85,6 +92,7 @@ class MissionServer {
   mavlink::Address self_;
   MissionTaker taker_;
   std::optional<Upload> upload_;
+  std::optional<Ended> ended_;  ///< the newest one
   std::vector<mavlink::MissionItemInt> items_;
   std::uint8_t sequence_ = 0;
   std::uint16_t text_id_ = 0;
@@ -96,6 +104,9 @@ Item item_of(const mavlink::MissionItemInt& wire);
 /// Returns steps as items of the wire, for a download: waypoints relative to the origin; without an origin in W.
 /// Followed tracks have no item.
 std::vector<mavlink::MissionItemInt> items_of(const std::vector<Step>& steps, const Site& site);
+
+/// Returns the seq of each step's item among items_of(). A followed track has that of the next item.
+std::vector<std::uint16_t> seqs_of(const std::vector<Step>& steps);
 
 inline constexpr Duration kRequestAgain{1'500'000};
 inline constexpr int kTries = 5;

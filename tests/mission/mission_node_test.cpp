@@ -21,18 +21,22 @@ using Cable = std::deque<mavlink::Bytes>;
 
 class StationLink final : public mavlink::Link {
  public:
-  explicit StationLink(Cable& cable) : cable_(cable) {}
+  StationLink(Cable& cable, std::vector<mavlink::Frame>& sent) : cable_(cable), sent_(sent) {}
   std::optional<mavlink::Portion> receive(UTime) override {
     if (cable_.empty()) return std::nullopt;
     mavlink::Portion portion{cable_.front(), std::nullopt};
     cable_.pop_front();
     return portion;
   }
-  void send(std::span<const std::uint8_t>) override {}
+  void send(std::span<const std::uint8_t> bytes) override {
+    for (const mavlink::Frame& frame : parser_.push(bytes)) sent_.push_back(frame);
+  }
   [[nodiscard]] bool datagrams() const override { return true; }
 
  private:
   Cable& cable_;
+  mavlink::Parser parser_;
+  std::vector<mavlink::Frame>& sent_;
 };
 
 Mission three_steps() {
@@ -63,7 +67,7 @@ class MissionNodeTest : public ::testing::Test {
       setup.site = site_without_origin();
       setup.uav.flight_box = Box(Vec3::Zero(), Vec3(10, 10, 3));
       setup.folder = folder_.file("");
-      setup.link = std::make_unique<StationLink>(cable_);
+      setup.link = std::make_unique<StationLink>(cable_, sent_);
       return std::make_unique<MissionNode>(bus, std::move(setup));
     });
   }
@@ -103,6 +107,20 @@ class MissionNodeTest : public ::testing::Test {
       send(item);
     }
   }
+  /// The messages of this type that tern-mission has sent.
+  template <class M>
+  [[nodiscard]] std::vector<M> sent() const {
+    std::vector<M> messages;
+    for (const mavlink::Frame& frame : sent_) {
+      if (const auto message = mavlink::from_frame<M>(frame)) messages.push_back(*message);
+    }
+    return messages;
+  }
+  [[nodiscard]] std::vector<int> reported() const {
+    std::vector<int> seqs;
+    for (const auto& message : sent<mavlink::MissionItemReached>()) seqs.push_back(message.seq);
+    return seqs;
+  }
   void order_start() {
     mavlink::CommandLong command;
     command.target_system = command.target_component = 1;
@@ -128,6 +146,7 @@ class MissionNodeTest : public ::testing::Test {
 
   TempFolder folder_;
   Cable cable_;
+  std::vector<mavlink::Frame> sent_;
   VirtualRunner runner_;
   VoxelMap map_;
   const Node* node_ = nullptr;
@@ -169,6 +188,51 @@ TEST_F(MissionNodeTest, ARestartFliesNoMissionThatWasCleared) {
   run(5.0);
   EXPECT_TRUE(flown_to_.empty());
   EXPECT_THAT(node_->health().waiting_for, ::testing::HasSubstr("upload a mission"));
+}
+
+TEST_F(MissionNodeTest, AMissionMayBeClearedAtAnyMoment) {
+  start();
+  for (int k = 0; k < 60; ++k) {  // MISSION_CURRENT is due at one look in fifty
+    upload(three_steps());
+    run(0.5);
+    send(mavlink::MissionClearAll{1, 1, 0});
+    run(0.5);
+    EXPECT_EQ(sent<mavlink::MissionAck>().back().type, kAccepted);
+  }
+  EXPECT_EQ(sent<mavlink::MissionCurrent>().back().total, 0);
+}
+
+TEST_F(MissionNodeTest, EachItemIsReportedAsReached) {
+  fly(three_steps());
+  EXPECT_THAT(reported(), ::testing::ElementsAre(0, 1, 2));
+}
+
+TEST_F(MissionNodeTest, ItemsOfAFileAreReportedAsTheyAreDownloaded) {
+  Mission mission = three_steps();
+  for (Step& step : mission.steps) step.item += 1;  // a take-off is the file's first item, and no step
+  start(std::move(mission));
+  run(5.0);
+  EXPECT_THAT(reported(), ::testing::ElementsAre(0, 1, 2));
+  EXPECT_EQ(sent<mavlink::MissionCurrent>().back().seq, 2);
+}
+
+TEST_F(MissionNodeTest, ARestartForgetsAnUploadThatIsBlocked) {
+  start();
+  upload(three_steps());
+  run(3.0);
+  const Eigen::Vector3i at = map_.grid.cell_of(Vec3(5, 4, 1));
+  support::paint(map_, at, at, VoxelLabel::Occupied);
+  restart();
+  run(3.0);
+  EXPECT_FALSE(node_->finished()) << "the ground station may upload another one";
+  EXPECT_THAT(node_->health().waiting_for, ::testing::HasSubstr("upload a mission"));
+  Mission other = three_steps();
+  other.steps.erase(other.steps.begin() + 1);
+  upload(other);
+  run(1.0);
+  order_start();
+  run(5.0);
+  EXPECT_THAT(flown_to_, ::testing::ElementsAre(Vec3(3, 2, 1), Vec3(7, 2, 1)));
 }
 
 TEST_F(MissionNodeTest, ARestartFliesNoMissionThatIsDone) {

@@ -96,6 +96,18 @@ TEST_F(Server, AsksAgainForWhatWasLostAndDropsASilentUpload) {
   EXPECT_TRUE(taken_.empty());
 }
 
+TEST_F(Server, AcknowledgesAgainIfTheLastItemComesAgain) {
+  upload(2);
+  taken_.clear();
+  EXPECT_EQ(only<MissionAck>(send(waypoint(1, 47.399, 8.5456, 12.0F))).type, kAccepted);
+  EXPECT_TRUE(taken_.empty()) << "it is in force already";
+  EXPECT_TRUE(send(waypoint(0, 47.399, 8.5456, 12.0F)).empty());
+  EXPECT_TRUE(send(waypoint(1, 47.399, 8.5456, 12.0F), kOther).empty());
+  refusal_ = "no";
+  upload(1);
+  EXPECT_EQ(only<MissionAck>(send(waypoint(0, 47.399, 8.5456, 12.0F))).type, kInvalid);
+}
+
 TEST_F(Server, NamesWhyAMissionIsRefused) {
   refusal_ = "item 2, MAV_CMD_DO_CHANGE_SPEED (178): cannot be flown, as this vehicle flies at its limits";
   count(1);
