@@ -32,3 +32,6 @@ file(CREATE_LINK ../share/tern/launch_scripts/tern.sh
 install(DIRECTORY ${PROJECT_BINARY_DIR}/python/tern_msgs DESTINATION share/tern/python COMPONENT programs OPTIONAL)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/docs/licensing.md DESTINATION share/doc/tern
         COMPONENT programs)
+# Pages of docs/howto/ use them on vehicles that have no sources.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/examples DESTINATION share/doc/tern COMPONENT programs
+        PATTERN __pycache__ EXCLUDE)
