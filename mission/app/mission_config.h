@@ -1,6 +1,7 @@
 // The section `mission:` of a scenario.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "mission/progress.h"
@@ -10,6 +11,7 @@ namespace tern::mission {
 
 struct MissionConfig {
   std::string file;  ///< as written in the scenario; "": none
+  std::uint8_t system = 1;
   ProgressConfig progress;
 };
 
