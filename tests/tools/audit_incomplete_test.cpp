@@ -176,6 +176,17 @@ TEST_F(AuditOfALog, WithoutTheFirstRequestsDoesNotKnowWhatWasCommittedBefore) {
   EXPECT_EQ(audited.check("commitment").unchecked.count("setpoints from before the first request in the log"), 1U);
 }
 
+TEST_F(AuditOfALog, OfALoggerThatCameBackForTheLastSetpointsDoesNotKnowTheirRequest) {
+  const std::string away = another_file();
+  testing::copy_log_without(good(), away, at_us(2.0), at_us(3.2));
+  const Audit audited = audit(with<HorizonRequest>(away, channels::kHorizonRequest.name,
+                                                   [](const HorizonRequest& r) { return r.t_s.us < at_us(2.6); }));
+  EXPECT_THAT(broken(audited), IsEmpty()) << text(audited);
+  EXPECT_EQ(
+      audited.check("commitment").unchecked.count("setpoints that may follow a trajectory whose requests were lost"),
+      1U);
+}
+
 TEST_F(AuditOfALog, OfALoggerThatDiedBreaksNothing) {
   const std::string log = another_file();
   testing::copy_part_of_log(good(), log, 0, at_us(2.5));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tools/audit/audit.h"
 #include "tools/audit/body_gap.h"
@@ -226,6 +227,20 @@ Check check_continuity(const FlightRecord& record) {
   return check;
 }
 
+namespace {
+
+// The time from which on no request is known, since the log has a silence after its last one: what was lost has no
+// later sequence number that would show it.
+std::optional<UTime> requests_unknown_since(const FlightRecord& record) {
+  const auto& spans = record.contents.spans;
+  for (std::size_t k = 1; k < spans.size(); ++k) {
+    if (spans[k].first > record.requests.back().deadline.us) return UTime{spans[k - 1].second};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Check check_commitment(const FlightRecord& record) {
   Check check{.name = "commitment", .claim = "setpoints lie on the committed trajectory, which is a plan of the log"};
   const std::vector<Commitments> all = commitments(record);
@@ -253,6 +268,7 @@ Check check_commitment(const FlightRecord& record) {
   double worst = 0.0;
   if (all.size() == 1) {
     const Window window = judged_window(record);
+    const auto unknown_since = requests_unknown_since(record);
     for (const UavState& s : record.setpoints) {
       if (!window.contains(s.at)) continue;
       if (s.at < all.front().list.front().spline.start) {
@@ -263,7 +279,7 @@ Check check_commitment(const FlightRecord& record) {
       const double gap = join_gap(s.motion, motion_at(all.front().at(s.at).curves, s.at));
       worst = std::max(worst, gap);
       if (gap <= kJoinTolerance) continue;
-      if (requests_unread) {
+      if (requests_unread || (unknown_since && s.at >= *unknown_since)) {
         ++check.unchecked["setpoints that may follow a trajectory whose requests were lost"];
       } else {
         check.fail({s.at, fmt::format("the setpoint is {:.3g} off the committed trajectory", gap)});
