@@ -11,7 +11,7 @@ struct wire::Form<Goal> {
 
   static void fields(auto& io, auto& m, auto& goal) {
     io.header("header", m.header, goal.header);
-    io.integer("id", m.id, goal.id, 1, kMaxCounter);
+    io.integer("id", m.id, goal.id, 1, kMaxGoalId);
     io.enumeration("mode", m.mode, goal.mode, GoalMode::Stop);
     io.position("position", m.position, goal.position);
   }

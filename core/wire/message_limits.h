@@ -17,8 +17,11 @@ inline constexpr double kMaxAcceleration = 1e9;                    ///< |acceler
 inline constexpr double kMaxJerk = 1e12;                           ///< |jerk| per axis, m/s³
 inline constexpr double kMaxBodyExtent = 1e3;                      ///< radius and |vertex| per axis of a body, m
 inline constexpr std::int64_t kMaxTimeUs = 4'000'000'000'000'000;  ///< |time|, µs: the year 2096
-inline constexpr Duration kMaxSpan{1'000'000'000'000};             ///< of a track's piece or a hold: 11 days
-inline constexpr Duration kMinIntervalDuration{1'000};             ///< smallest Δt of a trajectory
+/// Ids of goals count from 1 or are times in µs. The next id after a legal one, and the mission's next number of 4096
+/// ids, fit into 64 bits.
+inline constexpr std::int64_t kMaxGoalId = kMaxTimeUs;
+inline constexpr Duration kMaxSpan{1'000'000'000'000};  ///< of a track's piece or a hold: 11 days
+inline constexpr Duration kMinIntervalDuration{1'000};  ///< smallest Δt of a trajectory
 /// The largest Δt of a trajectory, for planner, messages and executor. A vehicle too slow to cross its sphere in J
 /// intervals of this length plans to a nearer point.
 inline constexpr Duration kMaxIntervalDuration{60'000'000};

@@ -70,6 +70,8 @@ TEST(Rejection, OfUavState) {
 
 TEST(Rejection, OfGoal) {
   EXPECT_EQ(after<Goal>([](auto& g) { g.id = 0; }), "Number");
+  EXPECT_EQ(after<Goal>([](auto& g) { g.id = kMaxGoalId + 1; }), "Number");
+  EXPECT_EQ(after<Goal>([](auto& g) { g.id = std::numeric_limits<std::int64_t>::max(); }), "Number");
   EXPECT_EQ(after<Goal>([](auto& g) { g.position.y() = 1.1e6; }), "Number");
   EXPECT_EQ(after<Goal>([](auto& g) { g.mode = static_cast<GoalMode>(3); }), "Enumeration");
   EXPECT_EQ(after<Goal>([](auto& g) { g.mode = static_cast<GoalMode>(255); }), "Enumeration");

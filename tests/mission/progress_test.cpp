@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/wire/message_limits.h"
+
 namespace tern::mission {
 namespace {
 
@@ -280,6 +282,11 @@ TEST(GoalIds, AscendAndCarryTheStep) {
   }
   EXPECT_EQ(step_of(goal_id(5, UTime{1'000'000}, 1)), 5);
   EXPECT_GT(goal_id(0, UTime{1}, 10'000'000), 10'000'000);
+  for (const int step : {0, kMaxSteps - 1}) {
+    const std::int64_t id = goal_id(step, UTime{1}, kMaxGoalId);
+    EXPECT_GT(id, kMaxGoalId) << "a number after the largest legal one";
+    EXPECT_EQ(step_of(id), step);
+  }
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ UavState random_message(Rng& rng, Fill) {
 
 template <>
 Goal random_message(Rng& rng, Fill) {
-  return {header(rng), integer(rng, 1, kMaxCounter), enumerator(rng, GoalMode::Stop), position(rng)};
+  return {header(rng), integer(rng, 1, kMaxGoalId), enumerator(rng, GoalMode::Stop), position(rng)};
 }
 
 template <>
