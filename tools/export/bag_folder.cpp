@@ -31,8 +31,8 @@ std::string bag_metadata(const std::string& file_name, const McapWriter& mcap) {
       file_name, duration_ns, span.first_ns, span.messages, topics);
 }
 
-Result<void> write_bag_metadata(const std::filesystem::path& folder, const McapWriter& mcap) {
-  const std::filesystem::path path = folder / "metadata.yaml";
+Result<void> write_bag_metadata(const std::filesystem::path& path, const std::filesystem::path& folder,
+                                const McapWriter& mcap) {
   std::ofstream file(path);
   file << bag_metadata(bag_file_name(folder), mcap);
   file.close();

@@ -16,7 +16,8 @@ std::string bag_file_name(const std::filesystem::path& folder);
 /// @param mcap  complete: finish() was called
 std::string bag_metadata(const std::string& file_name, const McapWriter& mcap);
 
-/// Writes metadata.yaml beside the MCAP file. @return an Error if it could not be written
-Result<void> write_bag_metadata(const std::filesystem::path& folder, const McapWriter& mcap);
+/// Writes metadata.yaml of a folder to `path`. @return an Error if it could not be written
+Result<void> write_bag_metadata(const std::filesystem::path& path, const std::filesystem::path& folder,
+                                const McapWriter& mcap);
 
 }  // namespace tern::exporting

@@ -44,7 +44,7 @@ void append_cells(std::string& row, const Json& value) {
 CsvFiles::Table& CsvFiles::table(const std::string& name, const std::string& head) {
   Table& table = tables_[name];
   if (!table.file.is_open()) {
-    table.file.open(folder_ / (name + ".csv"));
+    table.file.open(outputs_.part_of(folder_ / (name + ".csv")));
     table.file << head << '\n';
   }
   return table;

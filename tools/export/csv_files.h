@@ -8,6 +8,7 @@
 
 #include "core/base/result.h"
 #include "tools/export/logged_messages.h"
+#include "tools/export/output_files.h"
 
 namespace tern::exporting {
 
@@ -22,8 +23,9 @@ namespace tern::exporting {
 /// included.
 class CsvFiles {
  public:
-  /// A file is created in `folder` with the first message of its channel. It replaces a file of the same name.
-  explicit CsvFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// A file is begun in `folder` with the first message of its channel.
+  /// @param outputs  gives the files their names; it outlives this
+  CsvFiles(std::filesystem::path folder, OutputFiles& outputs) : folder_(std::move(folder)), outputs_(outputs) {}
   void add(const LoggedMessage& message);
   /// Closes all files. @return an Error that names the first file that could not be written
   Result<void> finish();
@@ -36,6 +38,7 @@ class CsvFiles {
   Table& table(const std::string& name, const std::string& head);
 
   std::filesystem::path folder_;
+  OutputFiles& outputs_;
   std::map<std::string, Table> tables_;
 };
 

@@ -16,6 +16,7 @@
 #include "tools/export/bag_folder.h"
 #include "tools/export/csv_files.h"
 #include "tools/export/mcap_writer.h"
+#include "tools/export/output_files.h"
 #include "tools/export/shortfalls.h"
 
 namespace tern::exporting {
@@ -88,9 +89,13 @@ Result<std::string> export_log(const ExportOptions& options) {
     if (error) return fail(folder + ": " + error.message());
   }
 
-  CsvFiles csv(options.csv_folder);
+  OutputFiles outputs(log_parts(options.log));
+  CsvFiles csv(options.csv_folder, outputs);
   std::optional<McapExport> mcap;
-  if (!mcap_file.empty()) mcap.emplace(mcap_file);
+  if (!mcap_file.empty()) mcap.emplace(outputs.part_of(mcap_file).string());
+  const std::filesystem::path metadata =
+      to_bag ? outputs.part_of(std::filesystem::path(options.bag_folder) / "metadata.yaml") : std::filesystem::path();
+  if (!outputs.refusal().empty()) return fail(outputs.refusal());
   std::int64_t messages = 0;
   FlightLog log(options.suffix);
   on_every_channel(log, options.suffix, [&](const LoggedMessage& message) {
@@ -102,9 +107,11 @@ Result<std::string> export_log(const ExportOptions& options) {
   const auto contents = log.read(options.log);
   if (!contents) return tl::make_unexpected(contents.error());
   if (messages == 0) return fail(options.log + ": holds no message of Tern");
+  if (!outputs.refusal().empty()) return fail(outputs.refusal());
   Result<void> written = csv.finish();
   if (written && mcap) written = mcap->finish();
-  if (written && to_bag) written = write_bag_metadata(options.bag_folder, mcap->file());
+  if (written && to_bag) written = write_bag_metadata(metadata, options.bag_folder, mcap->file());
+  if (written) written = outputs.put_in_place();
   if (!written) return tl::make_unexpected(written.error());
   return fmt::format("{} messages exported\n{}", messages, shortfalls(*contents));
 }

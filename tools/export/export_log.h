@@ -15,10 +15,11 @@ struct ExportOptions {
   std::string suffix;      ///< of the vehicle's channels
 };
 
-/// Writes the files that the options name.
+/// Writes the files that the options name. They take their names when all are complete (OutputFiles).
 /// @return text for people: the files written, and the messages that could not be read. Error cases:
 /// - the options name no file
 /// - the log cannot be opened, or is without a message of Tern
+/// - a file to be written is a file of the log
 /// - a file cannot be written
 Result<std::string> export_log(const ExportOptions& options);
 
