@@ -7,28 +7,6 @@ namespace {
 
 static_assert(tern_msgs::batch_t::MAX_BATCHES == kMaxBatches);
 
-/// Returns the length of the UTF-8 sequence that starts with `lead`; 0 if none does.
-std::size_t sequence_length(unsigned char lead) {
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead < 0xE0) return 2;
-  if (lead >= 0xE0 && lead < 0xF0) return 3;
-  if (lead >= 0xF0 && lead < 0xF5) return 4;
-  return 0;
-}
-
-/// The second byte rules out overlong forms, surrogates and code points beyond U+10FFFF.
-bool second_byte_legal(unsigned char lead, unsigned char second) {
-  switch (lead) {
-    case 0xE0: return second >= 0xA0;
-    case 0xED: return second < 0xA0;
-    case 0xF0: return second >= 0x90;
-    case 0xF4: return second < 0x90;
-    default: return true;
-  }
-}
-
-bool is_control(unsigned char c) { return (c < 0x20 && c != '\t' && c != '\n') || c == 0x7F; }
-
 }  // namespace
 
 tern_msgs::vec3_t to_lcm(const Vec3& v) { return {.x = v.x(), .y = v.y(), .z = v.z()}; }
@@ -59,20 +37,6 @@ std::vector<tern_msgs::vec3_t> to_lcm(const Points& points) {
 
 void append(std::vector<std::uint8_t>& bytes, std::string_view text) {
   bytes.insert(bytes.end(), text.begin(), text.end());
-}
-
-bool is_plain_text(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = sequence_length(lead);
-    if (length == 0 || i + length > text.size() || is_control(lead)) return false;
-    for (std::size_t k = 1; k < length; ++k) {
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80U) return false;
-    }
-    if (length > 1 && !second_byte_legal(lead, static_cast<unsigned char>(text[i + 1]))) return false;
-    i += length;
-  }
-  return true;
 }
 
 double FieldReader::number(double x, double low, double high, const char* part) {

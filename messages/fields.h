@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/plain_text.h"
 #include "core/base/time.h"
 #include "core/base/types.h"
 #include "core/splines/clamped_spline.h"
@@ -109,10 +110,6 @@ class Slices {
   std::span<const E> rest_;
   bool overrun_ = false;
 };
-
-/// True if the text is UTF-8 without control characters (U+0000 … U+001F, U+007F) except tab and newline. Such a text
-/// is safe to print and to put into JSON.
-bool is_plain_text(std::string_view text);
 
 /// Reads fields and checks them. A refused number, time or enumeration is read as its smallest legal value, so later
 /// arithmetic is safe. At the end accept() refuses the message with the smallest Rejection noted, in whatever order

@@ -16,7 +16,8 @@ inline constexpr UTime kNever{std::numeric_limits<std::int64_t>::max()};
 /// The state that a node reports on HEARTBEAT.
 struct NodeHealth {
   ProcessState state = ProcessState::Starting;
-  std::string waiting_for;  ///< in words; may be empty
+  /// In words; may be empty. HEARTBEAT carries it as plain_text() of at most kMaxWaitingText bytes.
+  std::string waiting_for;
 };
 
 /// The behaviour of one process. A node subscribes on its Bus in its constructor. Handlers and step() are called from

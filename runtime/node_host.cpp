@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/base/digest.h"
+#include "core/base/plain_text.h"
 #include "core/wire/message_limits.h"
 #include "messages/codec.h"
 #include "runtime/log.h"
@@ -108,6 +109,7 @@ void NodeHost::publish_heartbeat() {
   message.state = health.state;
   message.waiting_for = health.waiting_for;
   for (const std::string& trouble : {report_drift(), bus_.sender_troubles()}) append(message.waiting_for, trouble);
+  message.waiting_for = plain_text(message.waiting_for, kMaxWaitingText);  // receivers would refuse anything else
   message.channels = bus_.counters();
   message.echoes = echoes_.echoes(bus_.clock().now());
   bus_.publish(channels::kHeartbeat, message);

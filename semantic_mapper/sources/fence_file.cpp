@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/plain_text.h"
 #include "geodesy/json_values.h"
 
 namespace tern {
@@ -136,7 +137,7 @@ Result<std::vector<Fence>> parse_geojson_fences(const Json& json) {
 }  // namespace
 
 Result<std::vector<Fence>> parse_fences(std::string_view text, const std::string& file) {
-  const auto explain = [&](const std::string& why) { return fail(fmt::format("{}: {}", file, why)); };
+  const auto explain = [&](const std::string& why) { return fail(plain_text(fmt::format("{}: {}", file, why))); };
   if (text.size() > kMaxFenceBytes) {
     return explain(fmt::format("has {} bytes (limit {})", text.size(), kMaxFenceBytes));
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/plain_text.h"
 #include "core/wire/message_limits.h"
 
 namespace tern {
@@ -35,13 +36,13 @@ std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) {
     if (text.size() + name.size() > kShown) return text + " …";
-    text += (text.empty() ? "" : ", ") + name;
+    text += (text.empty() ? "" : ", ") + plain_text(name);
   }
   return text;
 }
 
 tl::unexpected<Error> bad_file(const std::string& file, std::size_t offset, const std::string& what) {
-  return fail(fmt::format("{}, offset {}: {}", file, offset, what));
+  return fail(plain_text(fmt::format("{}, offset {}: {}", file, offset, what)));
 }
 
 }  // namespace tern

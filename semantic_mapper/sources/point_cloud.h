@@ -47,10 +47,11 @@ struct CloudFile {
 /// The largest number of points of a file; a point takes 32 bytes of memory.
 inline constexpr std::int64_t kMaxCloudPoints = 50'000'000;
 
-/// Returns "x, y, z, red" of these names; beyond 200 characters the rest is cut.
+/// Returns "x, y, z, red" of these names as plain text; beyond 200 characters the rest is cut.
 std::string listed(const std::vector<std::string>& names);
 
-/// Returns an Error such as "file, offset 107: number of points 99 is more than the limit 4".
+/// Returns an Error such as "file, offset 107: number of points 99 is more than the limit 4". `what` may quote bytes of
+/// the file: the Error is plain text, so it can be sent.
 tl::unexpected<Error> bad_file(const std::string& file, std::size_t offset, const std::string& what);
 
 }  // namespace tern

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/plain_text.h"
 #include "simulator/worlds/obstacle.h"
 
 namespace tern {
@@ -72,7 +73,7 @@ class RowReader {
     for (std::size_t k = 0; k < used_.size(); ++k) {
       const std::string_view word = words_[idx(used_[k])];
       const std::optional<double> value = to_number(word);
-      if (!value) return fmt::format("'{}' is not a number", word.substr(0, 40));
+      if (!value) return fmt::format("'{}' is not a number", plain_text(word, 40));
       values_[k] = *value;
     }
     return add(line_number);

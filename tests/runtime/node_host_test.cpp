@@ -3,6 +3,10 @@
 #include <rapidcheck/gtest.h>
 
 #include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "core/base/digest.h"
 #include "core/base/random.h"
@@ -44,6 +48,36 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
   EXPECT_EQ(reports[0].build_id, build_id());
   EXPECT_EQ(reports[0].platform, platform());
   EXPECT_EQ(reports[0].hash, configuration_hash("x: 1\n"));
+}
+
+/// A node that only waits.
+class Waiter final : public Node {
+ public:
+  explicit Waiter(std::string words) : words_(std::move(words)) {}
+  [[nodiscard]] UTime next_wakeup() const override { return kNever; }
+  void step(UTime /*now*/) override {}
+  [[nodiscard]] NodeHealth health() const override { return {ProcessState::Waiting, words_}; }
+
+ private:
+  std::string words_;
+};
+
+/// Returns what the receivers of a node's heartbeats read of its words; nullopt if they accept no heartbeat.
+std::optional<std::string> heard_of(const std::string& words) {
+  VirtualRunner runner(kStart);
+  std::optional<std::string> heard;
+  runner.observer().subscribe(channels::kHeartbeat, [&](const Heartbeat& h) { heard = h.waiting_for; });
+  runner.start("tern-test", [&](Bus&) { return std::make_unique<Waiter>(words); });
+  runner.run(kStart + Duration{100'000});
+  return heard;
+}
+
+TEST(NodeHost, SendsAHeartbeatThatReceiversAcceptWhateverItsNodeSays) {
+  EXPECT_EQ(heard_of("σ of 2 m"), "σ of 2 m");
+  EXPECT_EQ(heard_of("a file with \xff\x01"), "a file with ??");
+  const auto limit = static_cast<std::size_t>(kMaxWaitingText);
+  EXPECT_EQ(heard_of(std::string(limit, 'x')), std::string(limit, 'x'));
+  EXPECT_EQ(heard_of(std::string(limit + 1, 'x')), std::string(limit, 'x')) << "it would not be sent at all";
 }
 
 TEST(NodeHost, TellsBackWhatItHeardAndAnswersANewProcessAtOnce) {

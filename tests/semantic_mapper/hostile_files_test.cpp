@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "core/base/plain_text.h"
 #include "core/base/random.h"
 #include "core/wire/message_limits.h"
 #include "semantic_mapper/sources/las.h"
@@ -60,6 +61,7 @@ void expect_sane(const Result<CloudFile>& cloud, std::size_t most) {
   if (!cloud) {
     ASSERT_TRUE(cloud.error().message.starts_with("file, offset ")) << cloud.error().message;
     ASSERT_LT(cloud.error().message.size(), 300u);
+    ASSERT_TRUE(is_plain_text(cloud.error().message)) << "an error that quotes the file can be sent";
     return;
   }
   ASSERT_LE(cloud->points.size(), most);
@@ -130,6 +132,7 @@ TEST(HostileFiles, MutatedOctoMapGivesAValueOrAnError) {
     if (!octomap) {
       ASSERT_TRUE(octomap.error().message.starts_with("file, offset ")) << octomap.error().message;
       ASSERT_LT(octomap.error().message.size(), 300u);
+      ASSERT_TRUE(is_plain_text(octomap.error().message));
       continue;
     }
     ASSERT_LE(octomap->leaves.size(), 4 * bytes.size());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/virtual_runner.h"
@@ -206,6 +207,24 @@ TEST_F(LiveMapperTest, ABrokenOctoMapChangesNothingAndIsReported) {
   EXPECT_EQ(label_at({5.1, 5.1, 1.1}), VoxelLabel::Occupied);
   EXPECT_EQ(node_->health().state, ProcessState::Ready);
   EXPECT_THAT(node_->health().waiting_for, HasSubstr("an OctoMap is not used: MAP_FILE, offset "));
+}
+
+TEST_F(LiveMapperTest, AnOctoMapWithIllegibleBytesInItsHeadIsReportedInAHeartbeatThatReceiversAccept) {
+  std::optional<Heartbeat> newest;
+  runner_.observer().subscribe(channels::kHeartbeat, [&](const Heartbeat& heartbeat) { newest = heartbeat; });
+  const std::string head = "# Octomap OcTree file\nid \xff\x01\nsize 1\nres 0.1\ndata\n";
+  MapFile file;
+  file.at = runner_.now();
+  file.part = 0;
+  file.parts = 1;
+  file.bytes.assign(head.begin(), head.end());
+  runner_.observer().publish(channels::kMapFile, file);
+  run(0.1);
+  newest.reset();
+  run(1.2);
+  ASSERT_TRUE(newest) << "the mapper would count as silent";
+  EXPECT_EQ(newest->process, "tern-mapper");
+  EXPECT_THAT(newest->waiting_for, HasSubstr("a tree of the kind ??: OcTree and ColorOcTree are read"));
 }
 
 TEST_F(LiveMapperTest, ARestartedMapperPublishesNoMapWithoutTheWallsOfAnOctoMap) {

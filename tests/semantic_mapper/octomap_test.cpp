@@ -128,6 +128,7 @@ TEST(OctoMap, NamesFileOffsetValueAndLimitOfWhatItRefuses) {
   EXPECT_THAT(error_of("LASF"), HasSubstr("no OctoMap"));
   EXPECT_THAT(error_of(first + "id OcTree\nsize 1\nres 0.1\n"), HasSubstr("no line data within"));
   EXPECT_THAT(error_of(first + "id SemanticOcTree\ndata\n"), HasSubstr("offset 29: a tree of the kind SemanticOcTree"));
+  EXPECT_THAT(error_of(first + "id \xff\x01\ndata\n"), HasSubstr("offset 29: a tree of the kind ??: "));
   EXPECT_THAT(error_of(first + "id OcTree\nsize 1\nres -1\ndata\n"), HasSubstr("res -1 is not a positive number"));
   EXPECT_THAT(error_of(first + "id OcTree\nsize 1\ndata\n"), HasSubstr("no line res"));
   const std::string good = first + "id OcTree\nsize 1\nres 0.1\ndata\n";
