@@ -10,7 +10,6 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
-#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -19,6 +18,7 @@
 
 #include "runtime/log.h"
 #include "viewer/bridge/app/accept_loop.h"
+#include "viewer/foxglove/waiting_messages.h"
 
 namespace tern {
 namespace {
@@ -101,19 +101,18 @@ class Client : public std::enable_shared_from_this<Client> {
 
   void publish(std::size_t channel, UTime at, const Payload& cdr) {
     for (const auto& [subscription, its_channel] : subscriptions_) {
-      if (its_channel == channel) queue(foxglove::message_head(subscription, at), cdr);
+      if (its_channel == channel) queue(message_of(subscription, channel, at, cdr));
     }
   }
 
-  void tell(std::string text) { queue({}, std::make_shared<const std::string>(std::move(text))); }
+  void tell(std::string text) { queue({{}, std::make_shared<const std::string>(std::move(text)), {}}); }
 
  private:
-  /// A message that waits to be sent; a text has no head.
-  struct Waiting {
-    std::string head;
-    Payload body;
-    [[nodiscard]] std::size_t bytes() const { return head.size() + body->size(); }
-  };
+  [[nodiscard]] foxglove::WaitingMessage message_of(std::uint32_t subscription, std::size_t channel, UTime at,
+                                                    const Payload& cdr) const {
+    const bool latched = clients_.channels[channel].latched;
+    return {foxglove::message_head(subscription, at), cdr, latched ? std::optional(subscription) : std::nullopt};
+  }
 
   void judge(const Request& request) {
     const std::string_view host = view(request[http::field::host]);
@@ -193,7 +192,7 @@ class Client : public std::enable_shared_from_this<Client> {
       if (!subscriptions_.emplace(subscription, channel).second) continue;
       ++clients_.subscribers[channel];
       const auto& [at, newest] = clients_.newest[channel];
-      if (newest) queue(foxglove::message_head(subscription, at), newest);
+      if (newest) queue(message_of(subscription, channel, at, newest));
     }
   }
 
@@ -203,6 +202,7 @@ class Client : public std::enable_shared_from_this<Client> {
       if (found == subscriptions_.end()) continue;
       --clients_.subscribers[found->second];
       subscriptions_.erase(found);
+      waiting_.end(subscription);
     }
   }
 
@@ -236,24 +236,18 @@ class Client : public std::enable_shared_from_this<Client> {
     return true;
   }
 
-  void queue(std::string head, const Payload& body) {
+  void queue(foxglove::WaitingMessage message) {
     if (!is_open_) return;
-    waiting_.push_back({std::move(head), body});
-    backlog_ += waiting_.back().bytes();
-    std::int64_t dropped = 0;
-    for (; backlog_ > kMaxFoxgloveBacklog && waiting_.size() > 1; ++dropped) {
-      backlog_ -= waiting_.front().bytes();
-      waiting_.pop_front();
-    }
+    const std::int64_t dropped = waiting_.add(std::move(message));
     if (dropped > 0) clients_.count([&](FoxgloveCounters& c) { c.dropped += dropped; });
     write();
   }
 
   void write() {
-    if (writing_ || waiting_.empty()) return;
-    sent_ = std::move(waiting_.front());
-    waiting_.pop_front();
-    backlog_ -= sent_.bytes();
+    if (writing_) return;
+    auto next = waiting_.take();
+    if (!next) return;
+    sent_ = std::move(*next);
     writing_ = true;
     socket_.binary(!sent_.head.empty());
     const std::array<asio::const_buffer, 2> buffers{asio::buffer(sent_.head), asio::buffer(*sent_.body)};
@@ -272,9 +266,8 @@ class Client : public std::enable_shared_from_this<Client> {
   std::int64_t id_ = 0;
   std::map<std::uint32_t, std::uint32_t> subscriptions_;  ///< channel, by the client's id
   std::map<std::uint32_t, foxglove::ClientAdvertise::Entry> advertised_;
-  std::deque<Waiting> waiting_;
-  std::size_t backlog_ = 0;  ///< bytes of waiting_
-  Waiting sent_;             ///< being written
+  foxglove::WaitingMessages waiting_{kMaxFoxgloveBacklog};
+  foxglove::WaitingMessage sent_;  ///< being written
   bool is_open_ = false, writing_ = false;
 };
 

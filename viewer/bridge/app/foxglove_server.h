@@ -12,7 +12,7 @@
 namespace tern {
 
 /// The limits of the server: clients, messages of clients that wait to be read, and bytes that wait for one client. A
-/// client that reads too slowly loses its oldest messages.
+/// client that reads too slowly loses its oldest messages, but the newest of each latched channel reaches it.
 inline constexpr int kMaxFoxgloveClients = 16;
 inline constexpr std::size_t kMaxFoxgloveInbox = 64;
 inline constexpr std::size_t kMaxFoxgloveBacklog = 8 << 20;
