@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/wire/message_limits.h"
 #include "messages/codec.h"
 #include "runtime/lcm_network.h"
 #include "runtime/node.h"
@@ -157,7 +158,7 @@ TEST_F(BusTest, WhatIsFromTheFutureReachesNoHandler) {
   };
   forge(60, now + kMaxAhead, now.us);
   EXPECT_EQ(settle().received, 1) << "clocks differ a little";
-  forge(61, now, std::numeric_limits<std::int64_t>::max());
+  forge(61, now, kMaxGoalId);
   forge(62, now, (now + kMaxAhead).us + 1);
   forge((now + kMaxAhead).us + 1, now, 1);
   forge(63, now + kMaxAhead + Duration{1}, 1);

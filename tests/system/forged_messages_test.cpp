@@ -4,10 +4,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "campaign/virtual_system.h"
+#include "core/wire/message_limits.h"
 #include "executor/app/executor_node.h"
 #include "messages/codec.h"
 #include "monitor/app/monitor_node.h"
@@ -167,8 +167,7 @@ TEST_F(ForgedMessages, APlanOfAnotherPlannerIsNotAdopted) {
 }
 
 TEST_F(ForgedMessages, AStopFromTheFutureStopsNobody) {
-  forger_.send(channels::kGoal.name, goal(std::numeric_limits<std::int64_t>::max(), GoalMode::Stop),
-               forger_.foreign(1));
+  forger_.send(channels::kGoal.name, goal(kMaxGoalId, GoalMode::Stop), forger_.foreign(1));
   forger_.send(channels::kGoal.name, goal(kFar, GoalMode::Stop), forger_.foreign(2));
   forger_.send(channels::kGoal.name, goal(kFar, GoalMode::Stop), forger_.next(channels::kGoal.name));
   expect_undisturbed();

@@ -6,6 +6,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "campaign/virtual_system.h"
+#include "core/wire/message_limits.h"
 #include "messages/codec.h"
 #include "messages/trailer.h"
 #include "monitor/flight_watch.h"
@@ -93,8 +94,7 @@ std::vector<Attack> attacks() {
       {"a request of a huge number, and a plan", forged_plan},
       {"stop for ever",
        [](const Overheard&, UTime now) -> std::vector<Forged> {
-         return {{channels::kGoal.name,
-                  goal_bytes(GoalMode::Stop, std::numeric_limits<std::int64_t>::max(), {0, 0, 0}, now)}};
+         return {{channels::kGoal.name, goal_bytes(GoalMode::Stop, kMaxGoalId, {0, 0, 0}, now)}};
        }},
       {"a goal that cannot be reached",
        [](const Overheard&, UTime now) -> std::vector<Forged> {
