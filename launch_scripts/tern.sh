@@ -27,6 +27,6 @@ case $command in
   check) exec "$TERN_ROOT/launch_scripts/fly.sh" --check "$@" ;;
   fly | view | campaign | spy | enter) exec "$TERN_ROOT/launch_scripts/$command.sh" "$@" ;;
 esac
-[[ $command =~ ^[a-z-]+$ ]] || die "$command is no command (tern --help)"
+[[ $command =~ ^[a-z][a-z0-9-]*$ ]] || die "$command is no command (tern --help)"
 [[ -z $TERN_INSTALLED || -x $TERN_BIN/tern-$command ]] || die "there is no program tern-$command (tern --help)"
 exec_process "tern-$command" "$@"

@@ -64,9 +64,10 @@ TimedSpline trajectory_of(const py::object& control_points, std::int64_t interva
 
 /// Returns (p, v, a, j): four arrays (3,) for a time, (n, 3) for n of them.
 py::tuple sample(const TimedSpline& trajectory, const py::object& times_us) {
-  const bool single = py::isinstance<py::int_>(times_us);
+  // Integers of numpy have an index as Python's own have; so has an array of one integer.
+  const bool single = PyIndex_Check(times_us.ptr()) != 0 && !py::isinstance<py::array>(times_us);
   const std::vector<std::int64_t> times =
-      single ? std::vector{times_us.cast<std::int64_t>()} : integers_of(times_us, "times_us");
+      single ? std::vector{py::int_(times_us).cast<std::int64_t>()} : integers_of(times_us, "times_us");
   const auto n = static_cast<py::ssize_t>(times.size());
   Points p(3, n), v(3, n), a(3, n), j(3, n);
   const ClampedSpline spline = trajectory.spline();

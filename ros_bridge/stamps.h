@@ -15,10 +15,10 @@ inline constexpr Duration kMaxAhead{100'000};
 /// Returns the time of a stamp, rounded down to microseconds.
 inline UTime time_of(const ros::Time& stamp) { return {stamp.sec * std::int64_t{1'000'000} + stamp.nanosec / 1'000}; }
 
-/// Refuses stamps that are older than `oldest` or more than kMaxAhead in the future.
-inline Result<void> check_stamp(UTime at, UTime now, Duration oldest) {
+/// Refuses stamps that are older than `oldest` or more than `ahead` in the future.
+inline Result<void> check_stamp(UTime at, UTime now, Duration oldest, Duration ahead = kMaxAhead) {
   const Duration age = now - at;
-  if (age <= oldest && age >= Duration{-kMaxAhead.us}) return {};
+  if (age <= oldest && age >= Duration{-ahead.us}) return {};
   return fail(
       fmt::format("its stamp is {:.3f} s {}; clocks must agree, and ROS's use_sim_time be false unless the flight is "
                   "slowed",

@@ -44,7 +44,7 @@ Result<void> TransformBuffer::add(const ros::TransformStamped& transform, bool i
   if (!pose) return fail(fmt::format("the transform of {}: {}", child, pose.error().message));
   const UTime at = time_of(transform.header.stamp);
   if (!is_static) {
-    if (auto timely = check_stamp(at, now, kKept); !timely) {
+    if (auto timely = check_stamp(at, now, kKept, kAhead); !timely) {
       return fail(fmt::format("the transform of {}: {}", child, timely.error().message));
     }
   }
@@ -61,7 +61,8 @@ Result<void> TransformBuffer::add(const ros::TransformStamped& transform, bool i
   } else {
     samples.insert(later, {at, *pose});
   }
-  while (samples.size() > kMaxSamples || samples.back().at - samples.front().at > kKept) samples.pop_front();
+  const auto is_old = [&](const Sample& sample) { return samples.size() > 1 && now - sample.at > kKept; };
+  while (samples.size() > kMaxSamples || is_old(samples.front())) samples.pop_front();
   return {};
 }
 

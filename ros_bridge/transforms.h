@@ -36,12 +36,15 @@ Result<RigidTransform> read_pose(const ros::Pose& pose);
 class TransformBuffer {
  public:
   static constexpr Duration kKept{10'000'000};
+  /// A pose may have a stamp this far ahead. SLAM systems date map → odom into the future: so it is known at the
+  /// present time.
+  static constexpr Duration kAhead{2'000'000};
   static constexpr std::size_t kMaxFrames = 500, kMaxSamples = 2'000, kMaxNameBytes = 200;
   static constexpr int kMaxDepth = 50;
 
   /// Adds a pose. A frame that gets another parent forgets its poses in the former one.
   /// @return an Error for a frame without name or in itself, for a pose that read_pose refuses, and for more than
-  ///   kMaxFrames. Also for a pose older than kKept or more than 0.1 s ahead
+  ///   kMaxFrames. Also for a pose older than kKept or more than kAhead ahead
   Result<void> add(const ros::TransformStamped& transform, bool is_static, UTime now);
 
   /// Returns the pose of `frame` in `base` at a time, or, for nullopt, by each frame's newest pose.

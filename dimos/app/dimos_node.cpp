@@ -155,10 +155,12 @@ void DimosNode::step(UTime now) {
     command(now);
   }
   if (now >= next_report_) report(now);
+  if (is_ending_ && now - *commanded_ > kStopping) has_ended_ = true;
 }
 
 std::optional<ros::Twist> DimosNode::velocity(UTime now) {
   why_still_.clear();
+  if (is_ending_) return std::nullopt;
   if (!setpoint_ || !state_ || now - setpoint_->at > kSetpointSilence || now - state_->at > ros::kOldestOdometry) {
     return std::nullopt;
   }
@@ -183,8 +185,9 @@ void DimosNode::command(UTime now) {
 }
 
 bool DimosNode::end(UTime now) {
-  if (commanded_ && now - *commanded_ <= kStopping) network_->publish(cmd_vel_, encode(ros::Twist()));
-  return true;
+  if (is_ending_ || !commanded_ || now - *commanded_ > kStopping) return true;
+  is_ending_ = true;
+  return false;
 }
 
 void DimosNode::report(UTime now) {

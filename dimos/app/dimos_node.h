@@ -44,6 +44,7 @@ class DimosNode final : public Node {
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
   [[nodiscard]] bool end(UTime now) override;
+  [[nodiscard]] std::optional<int> finished() const override { return has_ended_ ? std::optional(0) : std::nullopt; }
 
  private:
   void subscribe(const DimosOptions& options);
@@ -61,6 +62,8 @@ class DimosNode final : public Node {
   ros::RosInlet inlet_;
   std::optional<UavState> setpoint_, state_;
   std::optional<UTime> commanded_;  ///< when a velocity was last sent
+  bool is_ending_ = false;          ///< sends velocity 0 for kStopping, then it ends
+  bool has_ended_ = false;
   UTime next_, next_command_, next_report_, next_cloud_;
   std::string why_still_;  ///< why no velocity is sent although a setpoint is there
   std::string trouble_;    ///< of the last report

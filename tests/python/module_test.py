@@ -178,6 +178,7 @@ class Arrays(unittest.TestCase):
         answer = tern.plan(request, tern.World(self.vehicle, (20, 0, 1)))
         self.assertEqual(answer.outcome, "optimized")
         numpy.testing.assert_allclose(answer.trajectory.sample(1_000_000)[1], (4, 0, 0), atol=1e-6)
+        self.assertEqual(answer.trajectory.sample(numpy.int64(1_000_000))[1].shape, (3,))
 
     def test_tracks_can_be_replaced(self):
         world = tern.World(self.vehicle, (12, 0, 1))
