@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
                            "Ground station that uploads missions over MAVLink: udpout://ADDRESS:PORT, or "
                            "serial:///dev/NAME:BAUD");
           },
-      .read_section = [](tern::ConfigSection section) { read_mission_config(section); }};
+      .read_section = [](tern::ConfigSection section) { read_mission_config(std::move(section)); }};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const MissionConfig config = read_mission_config(context.section);
     MissionSetup setup;
