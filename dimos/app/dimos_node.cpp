@@ -187,6 +187,7 @@ void DimosNode::command(UTime now) {
 bool DimosNode::end(UTime now) {
   if (is_ending_ || !commanded_ || now - *commanded_ > kStopping) return true;
   is_ending_ = true;
+  next_command_ = now;  // at once, however low the rate
   return false;
 }
 
