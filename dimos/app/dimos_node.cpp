@@ -155,7 +155,6 @@ void DimosNode::step(UTime now) {
     command(now);
   }
   if (now >= next_report_) report(now);
-  if (is_ending_ && now - *commanded_ > kStopping) has_ended_ = true;
 }
 
 std::optional<ros::Twist> DimosNode::velocity(UTime now) {
@@ -179,15 +178,16 @@ void DimosNode::command(UTime now) {
   if (twist) {
     commanded_ = now;
     network_->publish(cmd_vel_, encode(*twist));
-  } else if (commanded_ && now - *commanded_ <= kStopping) {
+  } else if (commanded_) {
     network_->publish(cmd_vel_, encode(ros::Twist()));
+    if (now - *commanded_ > kStopping) commanded_.reset();
   }
 }
 
 bool DimosNode::end(UTime now) {
-  if (is_ending_ || !commanded_ || now - *commanded_ > kStopping) return true;
+  if (is_ending_ || !commanded_) return true;
   is_ending_ = true;
-  next_command_ = now;  // at once, however low the rate
+  next_command_ = now;
   return false;
 }
 

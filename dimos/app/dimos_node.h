@@ -32,7 +32,7 @@ const std::vector<Port>& ports();
 ///
 /// With the port `odom` it is the vehicle. With `cmd_vel` as well it flies the setpoints by velocities: while SETPOINT
 /// and odometry are fresh and no other process is the vehicle. When that ends, and when this process ends, it sends
-/// velocity 0 for kStopping, then nothing: the vehicle is free for others.
+/// velocity 0 for kStopping, at least once, then nothing: the vehicle is free for others.
 class DimosNode final : public Node {
  public:
   static constexpr Duration kStopping{500'000};
@@ -44,7 +44,9 @@ class DimosNode final : public Node {
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
   [[nodiscard]] bool end(UTime now) override;
-  [[nodiscard]] std::optional<int> finished() const override { return has_ended_ ? std::optional(0) : std::nullopt; }
+  [[nodiscard]] std::optional<int> finished() const override {
+    return is_ending_ && !commanded_ ? std::optional(0) : std::nullopt;
+  }
 
  private:
   void subscribe(const DimosOptions& options);
@@ -61,9 +63,8 @@ class DimosNode final : public Node {
   Outlet outlet_;
   ros::RosInlet inlet_;
   std::optional<UavState> setpoint_, state_;
-  std::optional<UTime> commanded_;  ///< when a velocity was last sent
-  bool is_ending_ = false;          ///< sends velocity 0 for kStopping, then it ends
-  bool has_ended_ = false;
+  std::optional<UTime> commanded_;  ///< when a velocity was last sent; nullopt: the vehicle was told to stop since
+  bool is_ending_ = false;          ///< it ends once the vehicle was told to stop
   UTime next_, next_command_, next_report_, next_cloud_;
   std::string why_still_;  ///< why no velocity is sent although a setpoint is there
   std::string trouble_;    ///< of the last report

@@ -109,7 +109,10 @@ std::vector<Frame> MissionServer::receive(const Frame& frame, UTime now) {
                               [&](const auto& m) {
                                 const bool clears = m.mission_type == kMissionType || m.mission_type == kAllTypes;
                                 const std::string why = clears ? taker_.take({}) : "";
-                                if (why.empty() && clears) items_.clear();
+                                if (why.empty() && clears) {
+                                  items_.clear();
+                                  ended_.reset();
+                                }
                                 if (!why.empty()) say(why, out);
                                 acknowledge(why.empty() ? kAccepted : kDenied, m.mission_type, peer, out);
                               }) ||

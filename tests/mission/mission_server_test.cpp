@@ -103,6 +103,8 @@ TEST_F(Server, AcknowledgesAgainIfTheLastItemComesAgain) {
   EXPECT_TRUE(taken_.empty()) << "it is in force already";
   EXPECT_TRUE(send(waypoint(0, 47.399, 8.5456, 12.0F)).empty());
   EXPECT_TRUE(send(waypoint(1, 47.399, 8.5456, 12.0F), kOther).empty());
+  send(MissionClearAll{kVehicle.system, kVehicle.component, 0});
+  EXPECT_TRUE(send(waypoint(1, 47.399, 8.5456, 12.0F)).empty()) << "it is in force no more";
   refusal_ = "no";
   upload(1);
   EXPECT_EQ(only<MissionAck>(send(waypoint(0, 47.399, 8.5456, 12.0F))).type, kInvalid);
