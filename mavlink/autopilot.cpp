@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/world/estimate_jump.h"
 #include "mavlink/axes.h"
 
 namespace tern::mavlink {
@@ -178,7 +179,9 @@ void Autopilot::receive_position(const Frame& frame, UTime received) {
     state.motion.p = enu_of(m->p);
     state.motion.v = enu_of(m->v);
     state.yaw = wrapped(yaw_);
-    if (!state_ || state.at > state_->at) state_ = state;
+    if (state_ && state.at <= state_->at) return;
+    if (state_ && estimate_jumps(state_->motion.p, state_->motion.v, state.motion.p, state.at - state_->at)) ++resets_;
+    state_ = state;
   }
 }
 

@@ -78,6 +78,8 @@ class Autopilot {
   [[nodiscard]] EstimatorHealth estimator() const;
   [[nodiscard]] Vec3 sigma() const;  ///< the estimator's accuracy per axis, m; 0: not reported
   [[nodiscard]] const ClockFit& clock() const { return clock_; }
+  /// Number of resets of the estimate: changes of ODOMETRY's counter. LOCAL_POSITION_NED has none, so there it is the
+  /// number of jumps (estimate_jumps).
   [[nodiscard]] int resets() const { return resets_; }
   /// The newest state in its local frame, as ENU, with `at` in our clock. a and j are zero: they are not reported.
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }

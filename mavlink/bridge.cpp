@@ -87,6 +87,9 @@ void Bridge::receive(const UavState& setpoint) {
 
 void Bridge::order_flight() {
   if (flies()) return;
+  if (config_.start == Start::Pilot && !has_followed_) {
+    return out_.log("GOAL orders no flight: with start: pilot the first one begins with the pilot's switch");
+  }
   ordered_ = ordered_by_goal_ = true;
   modes_.forget_found();
   if (autopilot_.armed()) modes_.keep_found(autopilot_);

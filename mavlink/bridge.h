@@ -64,7 +64,7 @@ const char* to_string(Stage stage);
 /// | the estimate is apart from external vision for 1 s          | Climbing, Following | Landing                   |
 /// | FLIGHT_RESULT, or the process ends                          | Engaging, Climbing, Following | Landing         |
 /// | the autopilot leaves the landing mode                       | Landing             | StoodBack                 |
-/// | order_flight(): a new GOAL                                  | StoodBack, Landed   | Waiting                   |
+/// | order_flight(): a new GOAL (start pilot: once it has followed) | StoodBack, Landed | Waiting                  |
 /// | the pilot's switch, start pilot                             | StoodBack           | Waiting                   |
 ///
 /// A restarted bridge passes through Waiting and Ready to Following if the vehicle flies in the following mode. It
@@ -124,7 +124,7 @@ class Bridge {
   void receive(const Plan& plan) { command_.receive(plan); }
   /// Takes the vehicle's state (W) from a motion-capture system. Used only with external_vision.
   void receive_vision(const UavState& seen);
-  /// A new GOAL of mode Go orders the vehicle to fly.
+  /// A new GOAL of mode Go orders the vehicle to fly. With `start: pilot` only after this bridge has followed.
   void order_flight();
   /// A flight is under way that this bridge did not start, since it was restarted: it arms only when ordered.
   void flight_is_under_way();
@@ -172,6 +172,7 @@ class Bridge {
 
   // Stages (bridge_stages.cpp).
   void enter(Stage stage, const std::string& why = {});
+  void begin_following();
   void step_stage(UTime now);
   void step_waiting(UTime now);
   void step_ready(UTime now);
@@ -226,6 +227,7 @@ class Bridge {
   bool setpoint_received_ = false;
   Present at_;
   UTime now_;                     ///< of the newest step
+  bool has_followed_ = false;     ///< since its start
   bool ordered_;                  ///< to fly: by `start: arm` or by a GOAL
   bool ordered_by_goal_ = false;  ///< such an order also takes over a vehicle that is armed already
   bool ends_ = false;

@@ -48,7 +48,13 @@ void Bridge::enter(Stage stage, const std::string& why) {
   at_.since = now_;
   out_.expect_command(now_);
   if (stage == Stage::Waiting) own_.reset();
+  if (stage == Stage::Following) begin_following();
   if (stage == Stage::Engaging) modes_.keep_found_once(autopilot_);
+}
+
+void Bridge::begin_following() {
+  has_followed_ = true;
+  if (!autopilot_.battery()) out_.log("the autopilot reports no battery charge: a low one will not end the flight");
 }
 
 void Bridge::stand_back(const std::string& why) {

@@ -55,6 +55,12 @@ Doubles doubles_of(const py::handle& value, const char* name, const std::vector<
   return Doubles(array);
 }
 
+double number_of(const py::handle& value, const char* name) {
+  const Doubles array = doubles_of(value, name, {});
+  require_finite(array, name);
+  return array.data()[0];
+}
+
 std::vector<std::int64_t> integers_of(const py::handle& value, const char* name) {
   const py::array array = numbers_of(value, name);
   if (array.dtype().kind() == 'f' || array.ndim() != 1) {

@@ -24,6 +24,8 @@ Doubles doubles_of(const py::handle& value, const char* name, const std::vector<
 /// Returns integers, n of them. A float array is refused, because a time in µs must not be rounded.
 std::vector<std::int64_t> integers_of(const py::handle& value, const char* name);
 
+/// Returns a finite number.
+double number_of(const py::handle& value, const char* name);
 /// Returns three finite numbers.
 Vec3 vec3_of(const py::handle& value, const char* name);
 /// Returns three numbers, or one number that stands for all three; infinite ones are allowed.

@@ -19,7 +19,7 @@ Body body_of(const py::object& radius, const py::object& half_extents, const py:
   const int given = !radius.is_none() + !half_extents.is_none() + !vertices.is_none();
   if (given > 1) throw py::value_error("vehicle: give one of radius, half_extents, vertices");
   Body body;
-  if (!radius.is_none()) body.radius = radius.cast<double>();
+  if (!radius.is_none()) body.radius = number_of(radius, "radius");
   if (!half_extents.is_none()) {
     body.vertices = box_corners(box_around(Vec3::Zero(), vec3_of(half_extents, "half_extents")));
   }

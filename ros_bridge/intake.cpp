@@ -24,6 +24,8 @@ bool is_finite(const ros::Vector3& v, double limit) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= limit && !std::isnan(v.x + v.y + v.z);
 }
 
+bool is_place(const Vec3& p) { return p.cwiseAbs().maxCoeff() <= kMaxCoordinate; }
+
 Vec3 vec(const ros::Vector3& v) { return {v.x, v.y, v.z}; }
 
 /// Returns the variance of a position per axis of W; nullopt if the covariance is unknown.
@@ -56,6 +58,7 @@ Taken<Detection> read_detection(const ros::Detection3D& in, const RigidTransform
     return refuse(fmt::format("bbox.size [{}, {}, {}] is no size", size.x(), size.y(), size.z()));
   }
   const RigidTransform T_WD = T_WF.after(*T_FD);
+  if (!is_place(T_WD.p)) return refuse("its centre lies beyond all coordinates in W");
   Detection out;
   out.position = T_WD.p;
   out.half_extents = T_WD.q.toRotationMatrix().cwiseAbs() * size / 2;
@@ -116,12 +119,31 @@ Taken<PoseInWorld> read_pose_in_world(const ros::PoseStamped& pose, const Intake
   if (!T_WF) return tl::unexpected(T_WF.error());
   const auto T_FB = read_pose(pose.pose);
   if (!T_FB) return refuse(T_FB.error().message);
-  return PoseInWorld{at, *T_WF, T_WF->after(*T_FB)};
+  const RigidTransform T_WB = T_WF->after(*T_FB);
+  if (!is_place(T_WB.p)) return refuse("its position lies beyond all coordinates in W");
+  return PoseInWorld{at, *T_WF, T_WB};
 }
 
 OdometryReading reading_of(const PoseInWorld& pose) {
   const Vec3 forward = pose.T_WB.q * Vec3::UnitX();
   return {pose.at, pose.T_WB.p, Vec3::Zero(), std::atan2(forward.y(), forward.x()), Vec3::Zero()};
+}
+
+/// Where the rays of a cloud begin, W.
+Taken<Vec3> sensor_of(const ros::PointCloud2& cloud, UTime at, const IntakeContext& context) {
+  if (!context.cloud_sensor.empty()) return pose_of(context.cloud_sensor, at, context).map(&RigidTransform::p);
+  const std::string& frame = cloud.header.frame_id;
+  if (context.is_world(frame)) {
+    if (context.vehicle) return *context.vehicle;
+    return refuse(fmt::format("a cloud in {} needs the vehicle's position, which is not known yet", frame));
+  }
+  const auto T_WF = pose_of(frame, at, context);
+  if (!T_WF) return tl::unexpected(T_WF.error());
+  const double away = context.vehicle ? (T_WF->p - *context.vehicle).norm() : 0.0;
+  if (away <= kOnVehicle) return T_WF->p;
+  return refuse(
+      fmt::format("the origin of its frame {} lies {:.1f} m from the vehicle: name the lidar's frame by cloud-sensor",
+                  frame, away));
 }
 
 float float_at(const std::uint8_t* bytes) {
@@ -169,7 +191,8 @@ Taken<ObservationSet> read(const ros::Detection3DArray& array, const IntakeConte
   }
   const auto T_WS = pose_of(array.header.frame_id, frame.at, context);
   if (!T_WS) return tl::unexpected(T_WS.error());
-  const bool in_world = array.header.frame_id == context.world_frame;
+  if (!is_place(T_WS->p)) return refuse("its sensor lies beyond all coordinates in W");
+  const bool in_world = context.is_world(array.header.frame_id);
   frame.sensor_position = in_world ? context.vehicle.value_or(Vec3::Zero()) : T_WS->p;
   std::set<std::int64_t> ids;
   for (std::size_t k = 0; k < array.detections.size(); ++k) {
@@ -197,7 +220,9 @@ Taken<Vec3> read(const ros::PoseStamped& goal, const IntakeContext& context) {
   if (!is_finite({p.x, p.y, p.z}, kMaxCoordinate)) {
     return refuse(fmt::format("the position [{}, {}, {}] is no place", p.x, p.y, p.z));
   }
-  return (*T_WF)(Vec3(p.x, p.y, p.z));
+  const Vec3 goal_in_world = (*T_WF)(Vec3(p.x, p.y, p.z));
+  if (!is_place(goal_in_world)) return refuse("the position lies beyond all coordinates in W");
+  return goal_in_world;
 }
 
 Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeContext& context) {
@@ -207,16 +232,14 @@ Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeCo
   if (!layout) return tl::unexpected(layout.error());
   const auto T_WS = pose_of(cloud.header.frame_id, at, context);
   if (!T_WS) return tl::unexpected(T_WS.error());
-  const bool in_world = cloud.header.frame_id == context.world_frame;
-  if (in_world && !context.vehicle) {
-    return refuse(
-        fmt::format("a cloud in {} needs the vehicle's position, which is not known yet", context.world_frame));
-  }
+  const auto sensor = sensor_of(cloud, at, context);
+  if (!sensor) return tl::unexpected(sensor.error());
+  if (!is_place(*sensor)) return refuse("its sensor lies beyond all coordinates in W");
   CloudScan part;
   part.at = at;
   part.sensor_id = kRosSensor;
   part.range_m = context.cloud_range_m;
-  part.sensor_position = in_world ? *context.vehicle : T_WS->p;
+  part.sensor_position = *sensor;
   part.has_classes = layout->class_number.has_value();
   std::vector<CloudScan> parts{part};
   const std::int64_t all = std::int64_t{cloud.width} * cloud.height;

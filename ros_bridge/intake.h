@@ -24,6 +24,8 @@ inline constexpr std::int32_t kRosSensor = 2'000;
 inline constexpr Duration kOldestOdometry{300'000};
 /// Detections and clouds may be this old.
 inline constexpr Duration kOldestMeasurement{1'000'000};
+/// A sensor of the vehicle is at most this far from it, m.
+inline constexpr double kOnVehicle = 3.0;
 /// Larger clouds are thinned to every second, third … point.
 inline constexpr std::int64_t kMaxCloudPoints = std::int64_t{4} * kMaxCloudPointsPerMessage;
 
@@ -43,7 +45,11 @@ struct IntakeContext {
   double detection_sigma_m = 0.1;    ///< standard deviation of positions without covariance, m
   double detection_range_m = 0.0;    ///< of the detector, m; 0: unlimited
   double cloud_range_m = 0.0;        ///< of the lidar, m; 0: unlimited
+  std::string cloud_sensor = {};     ///< the frame whose origin is the lidar; "": see the reading of a cloud
   std::string world_frame = kWorldFrame;
+  std::string placed_world = {};  ///< another world, whose pose in W is fixed; "": none
+
+  [[nodiscard]] bool is_world(const std::string& frame) const { return frame == world_frame || frame == placed_world; }
 };
 
 /// The state of the vehicle by one odometry, in W.
@@ -65,10 +71,14 @@ Taken<OdometryReading> read_odometry(const ros::PoseStamped& odometry, const Int
 /// @return a Refusal for the whole message if one detection is not a box, or two have one id
 Taken<ObservationSet> read(const ros::Detection3DArray& array, const IntakeContext& context);
 
-/// The position of a goal. A stamp of 0 means now; its age does not matter.
+/// The position of a goal in W. A stamp of 0 means now; its age does not matter.
 Taken<Vec3> read(const ros::PoseStamped& goal, const IntakeContext& context);
 
-/// The scans of a cloud with float32 fields x, y, z, and with `class` (uint8) if it has one.
+/// The scans of a cloud with float32 fields x, y, z, and with `class` (uint8) if it has one. Rays begin at the origin
+/// of cloud_sensor. If that is empty: at the vehicle for a cloud in a world, and at the origin of the cloud's frame
+/// otherwise.
+/// @return a Refusal also if, without cloud_sensor, that origin is farther than kOnVehicle from the vehicle. Such a
+///   frame is `odom`, or a lidar's fixed world, and space that no ray has passed would become free
 Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeContext& context);
 
 /// The parts of an OctoMap as a file, whose time is context.now: an OctoMap stays valid however old it is. Its frame

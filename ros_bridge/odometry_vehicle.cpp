@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "core/world/estimate_jump.h"
 #include "ros_bridge/slope.h"
 
 namespace tern::ros {
 Result<UavState> OdometryVehicle::receive(const OdometryReading& reading) {
   if (!readings_.empty()) {
     const OdometryReading& last = readings_.back();
-    const double later = (reading.at - last.at).seconds();
-    if (later <= 0.0) return fail(fmt::format("its stamp is {:.3f} s before that of the last one", -later));
-    const bool is_jump = (last.position + later * last.velocity - reading.position).norm() > kJump;
-    if (is_jump && later < kOldestOdometry.seconds()) {
+    const Duration later = reading.at - last.at;
+    if (later <= Duration{})
+      return fail(fmt::format("its stamp is {:.3f} s before that of the last one", -later.seconds()));
+    if (estimate_jumps(last.position, last.velocity, reading.position, later)) {
       ++resets_;
       readings_.clear();
     }

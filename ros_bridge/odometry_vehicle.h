@@ -21,8 +21,6 @@ namespace tern::ros {
 class OdometryVehicle {
  public:
   static constexpr Duration kSlope{100'000}, kOldestWord{1'000'000};
-  /// A position this far from the one that the previous velocity leads to is a jump: an estimator that was reset, m.
-  static constexpr double kJump = 0.3;
 
   /// @param mode  of VEHICLE_STATUS
   explicit OdometryVehicle(bool asks, std::string mode = "ROS 2") : asks_(asks), mode_(std::move(mode)) {}

@@ -86,6 +86,7 @@ ros::InletOptions inlet_options(const DimosConfig& config, const DimosOptions& o
   in.detection_sigma_m = config.detection_sigma_m;
   in.detection_range_m = config.detection_range_m;
   in.cloud_range_m = config.cloud_range_m;
+  in.cloud_sensor = options.cloud_sensor;
   in.keep_height = config.keep_height;
   in.world_frame = kTernFrame;
   in.placed = placement_of(config, options).transform();

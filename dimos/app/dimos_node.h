@@ -22,6 +22,7 @@ namespace tern::dimos {
 struct DimosOptions {
   std::string url = kDefaultDimosUrl;
   std::string world_frame = "world";            ///< DimOS's name of its world
+  std::string cloud_sensor;                     ///< see ros::IntakeContext
   std::map<std::string, std::string> channels;  ///< "/odom#geometry_msgs.PoseStamped" by the port's name
 };
 

@@ -22,6 +22,9 @@ int main(int argc, char** argv) {
             }
             app.add_option("--dimos_url", options.url, fmt::format("DimOS's LCM network (default: {})", options.url));
             app.add_option("--world_frame", options.world_frame, "DimOS's name of its world (default: world)");
+            app.add_option("--cloud_sensor", options.cloud_sensor,
+                           "The frame whose origin is the lidar (default: the cloud's frame; for one in the world, the "
+                           "vehicle)");
           },
       .read_section = [](tern::ConfigSection section) { section.read<DimosConfig>(); }};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {

@@ -2,6 +2,7 @@
 
 A flight's env.sh sets its network (LCM_DEFAULT_URL) and its pace (TERN_PACE).
 """
+import errno
 import hashlib
 import os
 import socket
@@ -86,5 +87,11 @@ class Bus:
         if self.master:
             data = signed(self.master, self.role, channel, data, message.header)
         for packet in packets_of(self.packets, channel, data):
-            self.socket.sendto(packet, self.address)
+            try:
+                self.socket.sendto(packet, self.address)
+            except OSError as error:
+                if error.errno != errno.ENETUNREACH:
+                    raise
+                raise SystemExit("this machine has no route for multicast: ip route add 224.0.0.0/4 dev lo "
+                                 "(docs/howto/troubleshooting.md)") from None
         self.packets = (self.packets + 1) % 2**32

@@ -76,13 +76,15 @@ void MavlinkNode::land() {
 }
 
 void MavlinkNode::on_goal(const Goal& goal) {
-  const bool first = !goal_id_, news = !first && goal.id > *goal_id_;
-  if (first || news) goal_id_ = goal.id;
-  if (first && goal.mode == GoalMode::Go) bridge_.flight_is_under_way();
-  if (!news || goal.mode != GoalMode::Go) return;
+  const bool is_first = !goal_id_;
+  if (!is_first && goal.id <= *goal_id_) return;
+  goal_id_ = goal.id;
+  if (goal.mode != GoalMode::Go) return;
+  if (is_first && goal.id < begun_.us) return bridge_.flight_is_under_way();
   if (stood_back_ && bus_.clock().now() - *stood_back_ < kOrdersUnderWay) {
     return log::warn("GOAL {} orders no flight: the bridge stood back while it was sent", goal.id);
   }
+  if (executor_gave_up_) return log::warn("GOAL {} orders no flight: tern-executor has failed", goal.id);
   bridge_.order_flight();
 }
 
@@ -91,7 +93,9 @@ void MavlinkNode::on_status(const VehicleStatus& status) {
 }
 
 void MavlinkNode::on_heartbeat(const tern::Heartbeat& heartbeat) {
-  if (heartbeat.process != "tern-executor" || heartbeat.state != ProcessState::Failed) return;
+  if (heartbeat.process != "tern-executor") return;
+  executor_gave_up_ = heartbeat.state == ProcessState::Failed;
+  if (!executor_gave_up_) return;
   bridge_.land("tern-executor has given the vehicle up: " + heartbeat.waiting_for);
 }
 

@@ -16,12 +16,13 @@ namespace tern::mavlink {
 /// Connects a Bridge to the bus. Receives SETPOINT, HORIZON_REQUEST, PLAN, GOAL and FLIGHT_RESULT; publishes UAV_STATE,
 /// VEHICLE_STATUS, and VEHICLE_TRUTH if the autopilot reports it.
 ///
-/// - A GOAL of mode Go with a larger id than the first one orders the bridge to fly (again).
+/// - A GOAL of mode Go with a larger id than all before orders the bridge to fly (again).
+/// - The first GOAL of mode Go orders nothing if its id, as a time in µs, is before the start of this process. It may
+///   have been sent to an earlier process. So the flight is under way or over, and `start: arm` arms no longer.
 /// - FLIGHT_RESULT makes it land.
-/// - `start: arm` arms only before the first GOAL: a bridge that is restarted during or after a flight waits.
 /// - While another process publishes VEHICLE_STATUS, this one publishes and sends nothing: only one of two bridges
 ///   flies.
-/// - A tern-executor in state Failed has given the vehicle up: the autopilot lands it.
+/// - A tern-executor in state Failed has given the vehicle up: the autopilot lands it, and no GOAL orders a flight.
 /// - Asked to end, it has the autopilot land what it flies, and goes on until the vehicle is disarmed. So a pilot who
 ///   flies keeps the external vision. It gives up when the link is silent for kLinkPatience, or when it is asked
 ///   again after kSameSignal. It then says that the vehicle is armed, and ends with kExitArmed.
@@ -68,7 +69,8 @@ class MavlinkNode final : public Node {
   std::optional<UTime> asked_to_end_, disarmed_since_;
   UTime next_report_;  ///< while it is asked to end
   std::optional<int> exit_code_;
-  std::optional<std::int64_t> goal_id_;
+  std::optional<std::int64_t> goal_id_;  ///< the largest received
+  bool executor_gave_up_ = false;
   UTime published_state_, published_truth_;
   bool followed_ = false;
   std::optional<UTime> stood_back_;  ///< since when the bridge stands back; nullopt: it does not

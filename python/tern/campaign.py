@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import csv
+import operator
 import os
 import pathlib
 import sys
@@ -48,6 +49,9 @@ def campaign(scenario: str | os.PathLike[str], seeds: Sequence[int] = range(1, 1
     """
     if len(seeds) == 0:
         raise ValueError("seeds: none are given; 1 or more are flown")
+    for seed in seeds:
+        if not hasattr(seed, "__index__") or not 0 <= operator.index(seed) < 2**64:
+            raise ValueError(f"seeds: {seed!r} is not an integer from 0 to 2^64 - 1")
     first, last = min(seeds), max(seeds)
     if sorted(seeds) != list(range(first, last + 1)):
         raise ValueError(f"seeds: {list(seeds)} are not consecutive")

@@ -35,10 +35,12 @@ int main(int argc, char** argv) {
             .range(0.0, 1e6);
         app.add_option("--cloud-range", options.in.cloud_range_m, "Range of the lidar, m (default 0: no limit)")
             .range(0.0, 1e6);
+        app.add_option("--cloud-sensor", options.in.cloud_sensor,
+                       "The frame whose origin is the lidar (default: the cloud's frame; for one in map, the vehicle)");
       }};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const char* given = std::getenv("ROS_DOMAIN_ID");
-    options.domain = tern::ros2::domain_of(!domain.empty() ? domain : given != nullptr ? given : "0");
+    options.domain = tern::ros2::domain_of(!domain.empty() ? domain : given != nullptr && *given != '\0' ? given : "0");
     options.in.keep_height = goal_height == "keep";
     return std::make_unique<tern::ros2::Ros2Node>(context.bus, context.scenario.uav, options);
   });

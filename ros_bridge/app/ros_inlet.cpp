@@ -70,7 +70,9 @@ IntakeContext RosInlet::context(UTime now) const {
           options_.detection_sigma_m,
           options_.detection_range_m,
           options_.cloud_range_m,
-          options_.world_frame};
+          options_.cloud_sensor,
+          options_.world_frame,
+          options_.placed ? options_.placed->child_frame_id : ""};
 }
 
 void RosInlet::refuse(const std::string& topic, const std::string& why) {

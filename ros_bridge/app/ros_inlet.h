@@ -40,6 +40,7 @@ enum class Input : std::uint8_t {
 /// How received messages are read.
 struct InletOptions {
   double detection_sigma_m = 0.1, detection_range_m = 0.0, cloud_range_m = 0.0;  ///< see IntakeContext
+  std::string cloud_sensor = {};                                                 ///< see IntakeContext
   bool keep_height = false;               ///< a goal gets the vehicle's height: RViz's button sends 0
   std::string world_frame = kWorldFrame;  ///< the name of W
   /// A frame whose pose in W is given. Transforms of others that name it as child are refused.

@@ -151,6 +151,17 @@ TEST(ArduPilotManners, ABridgeStartedAnewDoesNotEndTheTakeOffThatItFinds) {
   }
 }
 
+TEST(ArduPilotManners, AJumpOfItsEstimateCountsAsAReset) {
+  FlightInMemory flight(kArms, copter());
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.path = along;
+  flight.run(3.0);
+  EXPECT_EQ(flight.bridge.status(flight.now).resets, 0);
+  flight.shifts = Vec3(0.4, 0.0, 0.0);
+  flight.run(0.5);
+  EXPECT_EQ(flight.bridge.status(flight.now).resets, 1);
+}
+
 TEST(ArduPilotManners, ATakeOffOfSomebodyToAnotherHeightIsWaitedFor) {
   FlightInMemory flight({.start = Start::Pilot, .set_parameters = true}, copter());
   flight.run(6.0);

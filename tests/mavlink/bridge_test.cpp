@@ -150,6 +150,8 @@ TEST(Bridge, StandsBackWhenAPilotTakesOverUntilItIsToldAgain) {
 TEST(Bridge, WithStartPilotFollowsThePilotsSwitchAlone) {
   FlightInMemory flight({.start = Start::Pilot, .set_parameters = true});
   flight.run(8.0);
+  flight.bridge.order_flight();
+  flight.run(8.0);
   EXPECT_EQ(flight.bridge.stage(), Stage::Ready);
   EXPECT_FALSE(flight.autopilot.armed());
   flight.ground_station(switch_to(6));
@@ -160,6 +162,10 @@ TEST(Bridge, WithStartPilotFollowsThePilotsSwitchAlone) {
   flight.run(3.0);
   flight.ground_station(switch_to(6));
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.ground_station(switch_to(3));
+  EXPECT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; }));
+  flight.bridge.order_flight();
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); })) << "the pilot has handed the vehicle over before";
 }
 
 TEST(Bridge, AShortCutOfTheLinkIsOutlived) {

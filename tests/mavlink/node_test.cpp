@@ -139,6 +139,46 @@ TEST_F(BridgeNode, AGoalThatWasUnderWayTakesNothingFromAPilot) {
   EXPECT_TRUE(until([&] { return link_->autopilot.mode() == "OFFBOARD"; }, 10.0)) << "an order of afterwards counts";
 }
 
+TEST_F(BridgeNode, AGoalFromBeforeItsStartWithdrawsTheOrderToArmAndANewOneGivesIt) {
+  Goal goal;
+  goal.id = runner_.now().us - 1;
+  goal.position = Vec3(5, 0, 2);
+  runner_.observer().publish(channels::kGoal, goal);
+  run(8.0);
+  EXPECT_FALSE(link_->autopilot.armed()) << "the flight may be over";
+  goal.id = runner_.now().us;
+  runner_.observer().publish(channels::kGoal, goal);
+  EXPECT_TRUE(until_climbed());
+}
+
+TEST_F(BridgeNode, AFirstGoalBeforeItHasArmedIsAnOrderLikeItsOwn) {
+  run(0.1);
+  Goal goal;
+  goal.id = runner_.now().us;
+  goal.position = Vec3(5, 0, 2);
+  runner_.observer().publish(channels::kGoal, goal);
+  EXPECT_TRUE(until_climbed()) << status_.why_not;
+}
+
+TEST_F(BridgeNode, AfterTernExecutorHasFailedNoGoalOrdersAFlight) {
+  tern::Heartbeat heartbeat;
+  heartbeat.process = "tern-executor";
+  heartbeat.state = ProcessState::Failed;
+  runner_.observer().publish(channels::kHeartbeat, heartbeat);
+  run(0.1);
+  Goal goal;
+  goal.id = runner_.now().us;
+  goal.position = Vec3(5, 0, 2);
+  runner_.observer().publish(channels::kGoal, goal);
+  run(8.0);
+  EXPECT_FALSE(link_->autopilot.armed());
+  heartbeat.state = ProcessState::Ready;
+  runner_.observer().publish(channels::kHeartbeat, heartbeat);
+  goal.id = runner_.now().us;
+  runner_.observer().publish(channels::kGoal, goal);
+  EXPECT_TRUE(until_climbed()) << "it was started anew";
+}
+
 TEST_F(BridgeNode, AskedAgainItEndsAndTellsThatTheVehicleIsArmed) {
   ASSERT_TRUE(until_climbed());
   link_->command(kPilot);

@@ -206,6 +206,9 @@ class Arrays(unittest.TestCase):
             ("times_us: 5 is before the start", lambda: self.rest.sample(5)),
             ("times_us: dtype float64", lambda: self.rest.sample(numpy.array([1.5]))),
             ("v_max.* is -1", lambda: tern.Vehicle(v_max=-1)),
+            ("radius: dtype", lambda: tern.Vehicle(radius="x")),
+            ("radius: element 0 is nan", lambda: tern.Vehicle(radius=float("nan"))),
+            ("radius: has the shape", lambda: tern.Vehicle(radius=(1, 1))),
             ("give one of radius, half_extents, vertices", lambda: tern.Vehicle(radius=1, half_extents=(1, 1, 1))),
             ("t_s_us 5 is before the committed", lambda: tern.Request(self.vehicle, self.rest, 5)),
             ("committed: does not end at rest", lambda: tern.Request(self.vehicle, tern.Trajectory(numpy.arange(24.0).reshape(8, 3), 200_000, 1_000_000), 1_000_000)),
@@ -243,6 +246,8 @@ class Campaign(unittest.TestCase):
     def test_bad_arguments_fly_nothing(self):
         for words, call in [
             ("are not consecutive", lambda: tern.campaign("corridor_demo", [1, 3])),
+            ("seeds: -1 is not an integer", lambda: tern.campaign("corridor_demo", [-1])),
+            ("seeds: 1.5 is not an integer", lambda: tern.campaign("corridor_demo", [1.5])),
             ("seeds: none are given", lambda: tern.campaign("corridor_demo", [])),
             ("charge: time", lambda: tern.campaign("corridor_demo", [1], charge="time")),
             ("seeds are given by", lambda: tern.campaign("corridor_demo", [1], settings={"seed": 3})),

@@ -171,7 +171,8 @@ ros::PointCloud2 cloud_of(const std::vector<Eigen::Vector3f>& points, std::uint3
 }
 
 TEST_F(Intake, ReadsClouds) {
-  const RigidTransform T_WS = any_pose(rng);
+  RigidTransform T_WS = any_pose(rng);
+  T_WS.p = *context.vehicle + Vec3(0.3, -0.2, 0.1);
   ASSERT_TRUE(transforms.add(transform_of("map", "lidar", T_WS, kNow), false, kNow));
   std::vector<Eigen::Vector3f> points;
   for (int k = 0; k < 12; ++k) points.push_back(any_vec(rng, 20.0).cast<float>());
@@ -189,7 +190,50 @@ TEST_F(Intake, ReadsClouds) {
   EXPECT_EQ(read(cloud_of(points), context)->at(0).points.size(), points.size() - 1) << "no return";
 }
 
+TEST_F(Intake, RaysOfACloudBeginAtTheSensor) {
+  context.vehicle = Vec3(20.0, 0.0, 2.0);
+  RigidTransform T_WS;
+  T_WS.p = *context.vehicle + Vec3(0.2, 0.0, 0.1);
+  ASSERT_TRUE(transforms.add(transform_of("map", "lidar", T_WS, kNow), false, kNow));
+  ASSERT_TRUE(transforms.add(transform_of("map", "odom", {}, kNow), false, kNow));
+  auto cloud = cloud_of({{25.0F, 0.0F, 2.0F}});
+  const auto sensor_position = [&] { return read(cloud, context).value().at(0).sensor_position; };
+  EXPECT_EQ(sensor_position(), T_WS.p);
+  cloud.header.frame_id = "map";
+  EXPECT_EQ(sensor_position(), *context.vehicle);
+  cloud.header.frame_id = "odom";
+  EXPECT_THAT(why_not(cloud), HasSubstr("the origin of its frame odom lies 20.1 m from the vehicle"));
+  context.cloud_sensor = "lidar";
+  EXPECT_EQ(sensor_position(), T_WS.p);
+  EXPECT_LT((read(cloud, context)->at(0).points[0].position.cast<double>() - (Vec3(25, 0, 2) - T_WS.p)).norm(), 1e-5);
+  context.cloud_sensor = "";
+  context.placed_world = "odom";
+  EXPECT_EQ(sensor_position(), *context.vehicle);
+}
+
+TEST_F(Intake, RefusesWhatATransformCarriesBeyondAllCoordinates) {
+  RigidTransform T_WF;
+  T_WF.p = Vec3(9e5, 0.0, 0.0);
+  ASSERT_TRUE(transforms.add(transform_of("map", "odom", T_WF, kNow), false, kNow));
+  auto odometry = some_odometry();
+  odometry.header.frame_id = "odom";
+  odometry.pose.pose.position.x = 2e5;
+  EXPECT_THAT(why_not(odometry), HasSubstr("beyond all coordinates"));
+  ros::PoseStamped goal;
+  goal.header.frame_id = "odom";
+  goal.pose.position.x = 2e5;
+  EXPECT_THAT(why_not(goal), HasSubstr("beyond all coordinates"));
+  ObservationSet frame;
+  frame.at = kNow;
+  frame.detections = {{Vec3(2e5, 6.0, 7.0), Vec3(0.5, 1.0, 1.5), Vec3::Zero(), 12}};
+  auto detections = ros::detections_of(frame, {});
+  detections.header.frame_id = "odom";
+  for (auto& detection : detections.detections) detection.header.frame_id = "odom";
+  EXPECT_THAT(why_not(detections), HasSubstr("beyond all coordinates"));
+}
+
 TEST_F(Intake, SplitsAndThinsLargeClouds) {
+  context.vehicle.reset();
   ASSERT_TRUE(transforms.add(transform_of("map", "lidar", {}, kNow), false, kNow));
   for (const std::size_t n : {4'000U, 4'001U, 16'000U, 16'001U, 100'000U}) {
     const auto scans = read(cloud_of(std::vector<Eigen::Vector3f>(n, Eigen::Vector3f::Ones())), context);
@@ -208,6 +252,7 @@ TEST_F(Intake, SplitsAndThinsLargeClouds) {
 }
 
 TEST_F(Intake, RefusesCloudsThatDoNotFit) {
+  context.vehicle.reset();
   ASSERT_TRUE(transforms.add(transform_of("map", "lidar", {}, kNow), false, kNow));
   const auto good = cloud_of(std::vector<Eigen::Vector3f>(10, Eigen::Vector3f::Ones()));
   auto cloud = good;
