@@ -58,6 +58,7 @@ Executor::Executor(const UavSpec& uav, UTime now, const ExecutorConfig& config)
 
 Executor::Executor(const UavSpec& uav, const UavState& measured, const ExecutorConfig& config)
     : limits_(uav.limits),
+      v_max_(uav.limits.v_max),
       body_(uav.body),
       flight_box_(uav.flight_box),
       period_(checked_period(config.rate_hz)),
@@ -126,7 +127,7 @@ Limits Executor::limits_for(const TimedSpline& committed, UTime from) const {
     bounds.a_max = bounds.a_max.cwiseMax(part.a_max);
     bounds.j_max = bounds.j_max.cwiseMax(part.j_max);
   }
-  Limits limits{widened(share_ * limits_.v_max, bounds.v_max), widened(share_ * limits_.a_max, bounds.a_max),
+  Limits limits{widened(share_ * v_max_, bounds.v_max), widened(share_ * limits_.a_max, bounds.a_max),
                 widened(share_ * limits_.j_max, bounds.j_max)};
   if (limits_.dynamics && breach_of(spline, *limits_.dynamics).ok()) limits.dynamics = limits_.dynamics;
   return limits;

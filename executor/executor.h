@@ -90,6 +90,11 @@ class Executor {
   bool drop_unsent_plan(UTime last_setpoint);
   /// Sets the mode of the newest goal; nullopt: no goal was received.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
+  /// Sets the largest velocity of the next requests, per axis of W, m/s; nullopt: that of the vehicle. A vehicle that
+  /// is committed to fly faster keeps its speed until it next rests.
+  void set_speed_limit(const std::optional<Vec3>& v_max) {
+    v_max_ = v_max ? v_max->cwiseMin(limits_.v_max) : limits_.v_max;
+  }
 
   /// Returns the request that is due at `now`, with an empty header, or nullopt if none is due.
   std::optional<HorizonRequest> next_request(UTime now);
@@ -134,6 +139,7 @@ class Executor {
   void close(bool answered);
 
   Limits limits_;
+  Vec3 v_max_;  ///< of requests: SPEED_LIMIT, or limits_.v_max
   Body body_;
   Box flight_box_;
   Duration period_, lead_;

@@ -19,6 +19,7 @@
 #include "core/world/scan.h"
 #include "core/world/search_view.h"
 #include "core/world/sighting.h"
+#include "core/world/speed_limit.h"
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
 #include "core/world/vehicle.h"
@@ -108,6 +109,9 @@ inline constexpr Channel<MapChunk> kSemanticMap{
 /// Go, hold or stop, and where; every new goal has a larger id.
 inline constexpr Channel<Goal> kGoal{
     "GOAL", Scope::Vehicle, "on demand, repeated at 1 Hz", kLatched, Role::Operator, kAnyone};
+/// How fast to fly to a goal; sent before the GOAL whose id it names.
+inline constexpr Channel<SpeedLimit> kSpeedLimit{
+    "SPEED_LIMIT", Scope::Vehicle, "with a GOAL that has one", kLatched, Role::Operator, kAnyone};
 /// Asks for a plan from the committed state at t_s, by a deadline, within limits.
 inline constexpr Channel<HorizonRequest> kHorizonRequest{
     "HORIZON_REQUEST", Scope::Vehicle, "10–20 Hz", kStream, Role::Executor, kShortSilence};
@@ -160,7 +164,7 @@ inline constexpr std::tuple kAll{kUavState,          kSetpoint,     kVehicleStat
                                  kHorizonRequest,    kPlan,         kPlanHeading,   kPlanTiming,
                                  kSearchView,        kHeartbeat,    kConfiguration, kObstacleTruth,
                                  kVehicleTruth,      kImu,          kFeatureTracks, kPositionFix,
-                                 kOdometry,          kFlightResult, kMapFile};
+                                 kOdometry,          kFlightResult, kMapFile,       kSpeedLimit};
 
 }  // namespace channels
 

@@ -66,6 +66,8 @@ template <>
 inline constexpr const char* kLcmType<MapFile> = "map_file_t";
 template <>
 inline constexpr const char* kLcmType<Goal> = "goal_t";
+template <>
+inline constexpr const char* kLcmType<SpeedLimit> = "speed_limit_t";
 /// Time: t_s precedes the committed trajectory; the deadline is later than t_s − kDeadlineLead. Inconsistent: the
 /// committed trajectory does not end at rest; `start` differs from its state at t_s by more than kJoinTolerance; the
 /// flight box is empty.

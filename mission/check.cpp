@@ -68,6 +68,17 @@ std::string steps_outside(const Mission& mission, const Box& flight_box, const B
   return findings.text();
 }
 
+std::string steps_too_fast(const Mission& mission, const Limits& limits) {
+  const double most = limits.v_max.head<2>().maxCoeff();
+  Findings findings;
+  for (const Step& step : mission.steps) {
+    if (step.speed <= most) continue;
+    findings.add(step, fmt::format("has a speed of {:g} m/s; that of the vehicle is {:g} m/s (uav.limits.v_max)",
+                                   step.speed, most));
+  }
+  return findings.text();
+}
+
 std::string steps_blocked(const Mission& mission, const VoxelMap& map, const Body& body) {
   const BodyDistance distance(body);
   Findings findings;

@@ -79,7 +79,7 @@ class ItemReader {
       case kLand: return land();
       case kTakeoff: return take_off();
       case kDelay: return delay();
-      case kChangeSpeed: return refuse(kNoSpeed);
+      case kChangeSpeed: return change_speed();
       default: return refuse("cannot be flown");
     }
   }
@@ -144,9 +144,6 @@ class ItemReader {
   }
 
   Result<void> loiter() {
-    for (const std::string& why : {asks_for(3, "a radius of loitering"), asks_for(4, "a heading")}) {
-      if (!why.empty()) return refuse(why);
-    }
     const auto p = place(steps_.last());
     if (!p) return tl::unexpected(p.error());
     if (const std::string why = why_no_step(*p, 0.0, param(1)); !why.empty()) return refuse(why);
@@ -183,6 +180,21 @@ class ItemReader {
     if (steps_.empty()) return refuse("has no waypoint before it");
     if (const std::string why = why_no_step(Vec3::Zero(), 0.0, param(1)); !why.empty()) return refuse(why);
     steps_.stay_longer(param(1));
+    return {};
+  }
+
+  /// Of a multicopter airspeed (param1 = 0) is ground speed (1). A speed of −1 and a throttle of −1 change nothing.
+  Result<void> change_speed() {
+    constexpr double kGroundSpeed = 1.0, kUnchanged = -1.0, kDefault = -2.0;
+    if (param(1) != 0.0 && param(1) != kGroundSpeed) {
+      return refuse(fmt::format("param1 = {} is not a ground speed (1)", param(1)));
+    }
+    if (param(3) != 0.0 && param(3) != kUnchanged) return refuse(asks_for(3, "a throttle"));
+    const double speed = param(2) == kDefault ? 0.0 : param(2);
+    if (speed == kUnchanged) return {};
+    if (speed == 0.0 && param(2) == 0.0) return refuse("a speed of 0 m/s cannot be flown");
+    if (const std::string why = why_no_speed(speed); !why.empty()) return refuse(why);
+    steps_.set_speed(speed);
     return {};
   }
 

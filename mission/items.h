@@ -29,16 +29,17 @@ struct Item {
 /// | command                   | steps                                                              |
 /// |---------------------------|--------------------------------------------------------------------|
 /// | NAV_WAYPOINT (16)         | Pass within param2; with a hold (param1) Stop                      |
-/// | NAV_LOITER_TIME (19)      | Stop for param1 seconds                                            |
+/// | NAV_LOITER_TIME (19)      | Stop for param1 seconds: a multicopter hovers, whatever the radius |
 /// | NAV_RETURN_TO_LAUNCH (20) | StepList::go_home                                                  |
 /// | NAV_LAND (21)             | StepList::land; without a place at that of the step before         |
 /// | NAV_TAKEOFF (22)          | Pass above home or the given place                                 |
 /// | NAV_DELAY (93)            | the step before becomes a Stop, and stays longer by param1 seconds |
+/// | DO_CHANGE_SPEED (178)     | the speed (param2, m/s) of the steps after it; −2: the vehicle's   |
 ///
 /// Everything else is refused, with the item's number and the command's name:
-/// - other commands, DO_CHANGE_SPEED (178) with the reason kNoSpeed;
+/// - other commands, and of DO_CHANGE_SPEED speeds of climb and descent (param1) and throttles (param3);
 /// - frames other than 0, 3, 5, 6 (latitude, longitude), 1 and 4 (W);
-/// - a heading, which executor.heading decides, and a radius of loitering;
+/// - a heading, which executor.heading decides;
 /// - an item without autoContinue.
 Result<std::vector<Step>> steps_of(const std::vector<Item>& items, const Site& site);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/scenario/scenario.h"
@@ -32,6 +33,14 @@ std::int64_t goal_id(int step, UTime now, std::int64_t largest) {
 
 double time_limit_s(const Vec3& from, const Vec3& to, const Limits& limits) {
   return 3.0 * rest_to_rest_bound_s(from, to, limits) + 30.0;
+}
+
+Vec3 velocity_limits(double speed, const Vec3& from, const Vec3& to, const Limits& limits) {
+  const Eigen::Vector2d way = (to - from).head<2>();
+  const Eigen::Vector2d along =
+      way.norm() > 0.0 ? Eigen::Vector2d(way.normalized().cwiseAbs()) : Eigen::Vector2d::Zero();
+  const Eigen::Vector2d level = speed * along.cwiseMax(std::numbers::sqrt2 / 2.0);
+  return limits.v_max.cwiseMin(Vec3(level.x(), level.y(), limits.v_max.z()));
 }
 
 Progress::Progress(Mission mission, const ProgressConfig& config, const Limits& limits)
@@ -79,6 +88,12 @@ void Progress::send(GoalMode mode, const Vec3& position, UTime now) {
   goal_->position = position;
   largest_id_ = goal_->id;
   next_goal_ = now;
+  const double speed = mission_.steps[idx(step_)].speed;
+  speed_limit_.reset();
+  if (mode != GoalMode::Go || speed == 0.0) return;
+  speed_limit_.emplace();
+  speed_limit_->goal_id = goal_->id;
+  speed_limit_->v_max = velocity_limits(speed, sent_from_, position, limits_);
 }
 
 void Progress::fly_to(int step, UTime now) {
@@ -166,7 +181,9 @@ void Progress::judge(const UavState& state, UTime now) {
 }
 
 void Progress::judge_time(const UavState& state, const Vec3& place, UTime now) {
-  const double limit_s = time_limit_s(sent_from_, place, limits_);
+  Limits limits = limits_;
+  if (speed_limit_) limits.v_max = speed_limit_->v_max;
+  const double limit_s = time_limit_s(sent_from_, place, limits);
   if ((now - step_since_).seconds() <= limit_s) return;
   fail(fmt::format("{} was not reached within {:.0f} s: {:.1f} m are left", mission_.steps[idx(step_)].name, limit_s,
                    (place - state.motion.p).norm()),

@@ -8,6 +8,7 @@
 
 #include "core/base/knobs.h"
 #include "core/world/goal.h"
+#include "core/world/speed_limit.h"
 #include "core/world/vehicle.h"
 #include "mission/mission.h"
 
@@ -85,6 +86,8 @@ class Progress {
 
   /// Returns the goal to be published now, if there is one: a new one at once, then at 1 Hz.
   std::optional<Goal> due(UTime now);
+  /// The speed limit of the newest goal, to be published before it; nullopt: none.
+  [[nodiscard]] const std::optional<SpeedLimit>& speed_limit() const { return speed_limit_; }
   [[nodiscard]] UTime next_wakeup() const;
 
   [[nodiscard]] Stand stand() const { return stand_; }
@@ -121,6 +124,7 @@ class Progress {
   int step_ = 0;
   std::vector<std::optional<UTime>> reached_;
   std::optional<Goal> goal_;  ///< the newest one of this process
+  std::optional<SpeedLimit> speed_limit_;
   UTime next_goal_;
   std::optional<Goal> other_;    ///< Paused: the goal of somebody else; nullopt: by pause()
   std::int64_t largest_id_ = 0;  ///< of all goals that were sent or received
@@ -143,6 +147,14 @@ inline constexpr int kNoStep = 4'095;
 std::optional<int> step_of(std::int64_t goal_id);
 /// Returns the id of a new goal: about the time in µs, with the step in its last bits, larger than `largest`.
 std::int64_t goal_id(int step, UTime now, std::int64_t largest);
+
+/// Returns the limits of velocity for a flight at a speed over the ground, m/s:
+///
+///     v_i = speed · max(|d_i|, 1/√2), i = x, y
+///
+/// d is the horizontal direction from `from` to `to`. So the speed is exact on the straight way, and at most 1.23 times
+/// as large beside it. The vertical limit is the vehicle's.
+Vec3 velocity_limits(double speed, const Vec3& from, const Vec3& to, const Limits& limits);
 
 /// A step may take this long, s: as a flight may (flight_timeout_s), and 20 s more for detours around movers.
 double time_limit_s(const Vec3& from, const Vec3& to, const Limits& limits);

@@ -15,11 +15,11 @@ constexpr double kAbove = 0.5;
 
 void StepList::waypoint(const std::string& name, int item, const Vec3& p, double radius, double hold_s) {
   if (hold_s > 0.0) return stop(name, item, p, hold_s);
-  steps_.push_back({name, item, Action::Pass, p, radius, 0.0, 0});
+  add({name, item, Action::Pass, p, radius, 0.0, 0});
 }
 
 void StepList::stop(const std::string& name, int item, const Vec3& p, double hold_s) {
-  steps_.push_back({name, item, Action::Stop, p, 0.0, hold_s, 0});
+  add({name, item, Action::Stop, p, 0.0, hold_s, 0});
 }
 
 void StepList::land(int item, const Vec3& ground) {
@@ -29,7 +29,12 @@ void StepList::land(int item, const Vec3& ground) {
 void StepList::go_home(int item) { descend(fmt::format("return {}", item), item, site_.home); }
 
 void StepList::follow(const std::string& name, int item, std::int64_t track, const Vec3& offset, double hold_s) {
-  steps_.push_back({name, item, Action::Follow, offset, 0.0, hold_s, track});
+  add({name, item, Action::Follow, offset, 0.0, hold_s, track});
+}
+
+void StepList::add(Step step) {
+  step.speed = speed_;
+  steps_.push_back(std::move(step));
 }
 
 void StepList::stay_longer(double hold_s) {
@@ -47,7 +52,7 @@ const Vec3& StepList::last() const {
 void StepList::descend(const std::string& name, int item, const Vec3& low) {
   const Vec3 from = last();
   if (from.z() > low.z() && (from - low).head<2>().norm() > kAbove) {
-    steps_.push_back({fmt::format("above {}", name), item, Action::Pass, {low.x(), low.y(), from.z()}, 0.0, 0.0, 0});
+    add({fmt::format("above {}", name), item, Action::Pass, {low.x(), low.y(), from.z()}, 0.0, 0.0, 0});
   }
   stop(name, item, low, 0.0);
 }
@@ -57,14 +62,23 @@ Result<std::vector<Step>> StepList::take() {
   if (steps_.size() > static_cast<std::size_t>(kMaxSteps)) {
     return fail(fmt::format("takes {} steps (limit {})", steps_.size(), kMaxSteps));
   }
-  if (steps_.back().action == Action::Pass) steps_.back().action = Action::Stop;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const bool must_rest = k + 1 == steps_.size() || is_slower(steps_[k + 1], steps_[k]);
+    if (must_rest && steps_[k].action == Action::Pass) steps_[k].action = Action::Stop;
+  }
   return std::move(steps_);
 }
 
-bool asks_for_speed(std::string_view name) {
+bool asks_for_other_speed(std::string_view name) {
+  if (name == "speed") return false;
   std::string lower;
   for (const char c : name) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return lower.find("speed") != std::string::npos || lower.find("velocity") != std::string::npos;
+}
+
+std::string why_no_speed(double speed) {
+  if (speed == 0.0 || (speed >= kMinSpeed && speed <= kMaxSpeed)) return "";
+  return fmt::format("a speed of {} m/s is out of range [{}, {}]", speed, kMinSpeed, kMaxSpeed);
 }
 
 std::string why_no_step(const Vec3& position, double radius, double hold_s) {

@@ -34,32 +34,39 @@ class StepList {
   void go_home(int item);
   /// Stay beside a track for hold_s, at `offset` from its centre (W, m).
   void follow(const std::string& name, int item, std::int64_t track, const Vec3& offset, double hold_s);
+  /// Steps that are added from now on are flown to at most this fast, m/s; 0: as fast as the vehicle can.
+  void set_speed(double speed) { speed_ = speed; }
   /// Stay longer at the last step. @pre not empty()
   void stay_longer(double hold_s);
 
   [[nodiscard]] bool empty() const { return steps_.empty(); }
   /// The position of the last step, or home.
   [[nodiscard]] const Vec3& last() const;
-  /// Returns the steps; the last one is never a Pass, since the vehicle ends at rest. An Error if there is none, or too
-  /// many.
+  /// Returns the steps. A Pass becomes a Stop at the end, and before a slower step: a lower speed holds from a rest on.
+  /// An Error if there is none, or too many.
   [[nodiscard]] Result<std::vector<Step>> take();
 
  private:
   void descend(const std::string& name, int item, const Vec3& low);
+  void add(Step step);
 
   const Site& site_;
+  double speed_ = 0.0;
   std::vector<Step> steps_;
 };
 
 /// Returns why a step's numbers cannot be flown, as "hold of -1 s is out of range [0, 86400]"; "" if they can.
 std::string why_no_step(const Vec3& position, double radius, double hold_s);
 
-/// Why a speed is refused: GOAL carries none, and the executor's requests have the limits of the scenario.
-inline constexpr const char* kNoSpeed =
-    "a speed cannot be flown; the vehicle flies at uav.limits.v_max of the scenario: set that, and leave the speed out";
-/// Returns whether a column or property of this name asks for a speed.
-bool asks_for_speed(std::string_view name);
+/// Returns why a speed (m/s) cannot be flown; "" if it can, and for 0.
+std::string why_no_speed(double speed);
 
+/// Returns whether a column or property of this name asks for a speed, but is not `speed`.
+bool asks_for_other_speed(std::string_view name);
+inline constexpr const char* kOtherSpeed =
+    "is not known: state the largest speed on the way to a waypoint as `speed`, m/s";
+
+inline constexpr double kMinSpeed = 0.1, kMaxSpeed = 100.0;  // m/s
 inline constexpr double kMaxHoldS = 86'400.0;
 inline constexpr double kMaxRadius = 1'000.0;
 /// As of positions in a scenario, m.

@@ -12,6 +12,7 @@
 #include "core/world/observation.h"
 #include "core/world/scan.h"
 #include "core/world/sighting.h"
+#include "core/world/speed_limit.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
@@ -44,6 +45,7 @@ inline UTime claimed_time(const VehicleStatus& m) { return std::max(claimed_time
 inline UTime claimed_time(const HorizonRequest& m) { return std::max(claimed_time(m.header), m.t_s - kMaxLead); }
 /// A goal's id counts from 1, or is the time at which the goal was set, so that later goals have larger ids.
 inline UTime claimed_time(const Goal& m) { return std::max(claimed_time(m.header), UTime{m.id}); }
+inline UTime claimed_time(const SpeedLimit& m) { return std::max(claimed_time(m.header), UTime{m.goal_id}); }
 /// Heartbeats and configurations claim no time, so they are accepted whatever their clock shows. Clocks are compared by
 /// heartbeats (ClockSkew), and a clock that is far ahead should be reported.
 inline UTime claimed_time(const Heartbeat&) { return {}; }

@@ -53,7 +53,7 @@ const std::vector<ProcessRole>& process_roles() {
                 kObstacleTruth, kVehicleTruth, kFlightResult, kGoal, kSemanticMap, kObstacleSightings, kImu,
                 kFeatureTracks, kPositionFix, kOdometry)},
       {"tern-executor", Role::Executor,
-       names_of(kUavState, kVehicleStatus, kGoal, kPlan, kPlanHeading, kHorizonRequest, kSetpoint)},
+       names_of(kUavState, kVehicleStatus, kGoal, kSpeedLimit, kPlan, kPlanHeading, kHorizonRequest, kSetpoint)},
       {"tern-mavlink", Role::Vehicle,
        names_of(kUavState, kSetpoint, kVehicleStatus, kVehicleTruth, kHorizonRequest, kPlan, kFlightResult, kGoal)},
       {"tern-autopilot-sim", Role::Observer, {}},
@@ -77,7 +77,8 @@ const std::vector<ProcessRole>& process_roles() {
        names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kSemanticMap,
                 kObstacleObservations, kPredictions, kObstacleTruth, kVehicleTruth, kOdometry, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
-      {"tern-mission", Role::Operator, names_of(kGoal, kUavState, kVehicleStatus, kSemanticMap, kPredictions)},
+      {"tern-mission", Role::Operator,
+       names_of(kGoal, kSpeedLimit, kUavState, kVehicleStatus, kSemanticMap, kPredictions)},
   };
   return processes;
 }

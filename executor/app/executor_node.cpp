@@ -7,6 +7,7 @@
 
 #include "core/world/flyable.h"
 #include "core/world/names.h"
+#include "executor/app/log_counters.h"
 #include "executor/commanded_motion.h"
 #include "messages/codec.h"
 #include "runtime/log.h"
@@ -43,6 +44,7 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
   bus_.subscribe(channels::kUavState, [this](const UavState& state) { on_state(state); });
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
+  bus_.subscribe(channels::kSpeedLimit, [this](const SpeedLimit& limit) { on_speed_limit(limit); });
   bus_.subscribe(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
   bus_.subscribe(channels::kPlanHeading, [this](const PlanHeading& heading) { on_heading(heading); });
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
@@ -177,6 +179,7 @@ void ExecutorNode::begin(const UavState& state) {
   heading_.clear();
   update_tube(state.at);
   if (goal_) executor_->set_mode(goal_->mode);
+  use_speed_limit();
   if (following_) executor_->begin(bus_.clock().now());
   began_following_ = following_;
   has_flown_ = has_flown_ || following_;
@@ -242,7 +245,7 @@ void ExecutorNode::start_following(UTime now) {
 void ExecutorNode::stop_following() {
   executor_->pause();
   drop_unsent_plan();
-  log_counters();
+  log_counters(executor_->counters(), heading_.counters());
 }
 
 void ExecutorNode::on_goal(const Goal& goal) {
@@ -256,6 +259,18 @@ void ExecutorNode::on_goal(const Goal& goal) {
   goal_ = goal;
   next_goal_ = bus_.clock().now();
   if (executor_) executor_->set_mode(goal.mode);
+  use_speed_limit();
+}
+
+void ExecutorNode::on_speed_limit(const SpeedLimit& limit) {
+  if (speed_limit_ && limit.goal_id < speed_limit_->goal_id) return;
+  speed_limit_ = limit;
+  use_speed_limit();
+}
+
+void ExecutorNode::use_speed_limit() {
+  const bool holds = speed_limit_ && goal_ && speed_limit_->goal_id == goal_->id;
+  if (executor_) executor_->set_speed_limit(holds ? std::optional(speed_limit_->v_max) : std::nullopt);
 }
 
 void ExecutorNode::on_plan(const Plan& plan) {
@@ -343,25 +358,6 @@ void ExecutorNode::publish_setpoint(UTime at) {
       planned ? yaw_follower_->follow(*planned, at, heading_.limits()) : yaw_follower_->follow(setpoint.motion.v, at);
   bus_.publish(channels::kSetpoint, setpoint);
   last_setpoint_ = at;
-}
-
-void ExecutorNode::log_counters() const {
-  const ExecutorCounters& counters = executor_->counters();
-  log::info("requests {}, answered in time {}, unanswered {}, late {}, answered twice {}", counters.requests,
-            counters.answered_in_time, counters.unanswered, counters.late(), counters.answered_twice());
-  for (int k = 0; k < kVerdicts; ++k) {
-    const auto verdict = static_cast<Verdict>(k);
-    if (counters.of(verdict) > 0) log::info("plans {}: {}", to_string(verdict), counters.of(verdict));
-  }
-  for (int k = 0; k < kBreaches; ++k) {
-    const auto breach = static_cast<Breach>(k);
-    if (counters.of(breach) > 0) log::info("  of these for {}: {}", to_string(breach), counters.of(breach));
-  }
-  for (int k = 0; k < kHeadingVerdicts; ++k) {
-    const auto verdict = static_cast<HeadingVerdict>(k);
-    const std::int64_t count = heading_.counters().of(verdict);
-    if (count > 0) log::info("headings {}: {}", to_string(verdict), count);
-  }
 }
 
 /// How an input that is not usable was refused since then: " (refused: number)"; empty if it was not.

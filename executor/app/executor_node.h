@@ -81,6 +81,8 @@ class ExecutorNode final : public Node {
   void on_state(const UavState& state);
   void on_status(const VehicleStatus& status);
   void on_goal(const Goal& goal);
+  void on_speed_limit(const SpeedLimit& limit);
+  void use_speed_limit();
   void on_plan(const Plan& plan);
   void on_heading(const PlanHeading& heading);
   void on_heartbeat(const Heartbeat& heartbeat);
@@ -110,7 +112,6 @@ class ExecutorNode final : public Node {
   void update_tube(UTime now);
   void publish_setpoints(UTime now);
   void publish_setpoint(UTime at);
-  void log_counters() const;
 
   Bus& bus_;
   UavSpec uav_;
@@ -118,6 +119,7 @@ class ExecutorNode final : public Node {
   std::optional<Executor> executor_;
   std::optional<UTime> stationary_since_;
   std::optional<Goal> goal_;
+  std::optional<SpeedLimit> speed_limit_;  ///< the newest; it holds if it names goal_
   VehicleInputs inputs_;
   RejoinGuard guard_;
   VehicleStatus status_;          ///< newest; does not follow before the first

@@ -31,8 +31,10 @@ Mission load_mission(const Scenario& scenario, const MissionConfig& config) {
   }
   const Site site = site_of(scenario, config.progress);
   Mission mission = value_or_throw(parse_mission(read_text(path.string()), path.string(), site), "mission.file: ");
-  const std::string outside = steps_outside(mission, scenario.uav.flight_box, scenario.uav.body);
-  if (!outside.empty()) throw ConfigError("mission.file: " + path.string() + ": " + outside);
+  for (const std::string& why : {steps_outside(mission, scenario.uav.flight_box, scenario.uav.body),
+                                 steps_too_fast(mission, scenario.uav.limits)}) {
+    if (!why.empty()) throw ConfigError("mission.file: " + path.string() + ": " + why);
+  }
   return mission;
 }
 

@@ -106,8 +106,9 @@ std::string MissionNode::take_upload(const std::vector<Item>& items) {
   auto steps = steps_of(items, setup_.site);
   if (!steps) return steps.error().message;
   Mission mission{kUploaded, std::move(*steps)};
-  for (const std::string& why : {steps_outside(mission, setup_.uav.flight_box, setup_.uav.body),
-                                 steps_blocked(mission, *map_, setup_.uav.body)}) {
+  for (const std::string& why :
+       {steps_outside(mission, setup_.uav.flight_box, setup_.uav.body), steps_too_fast(mission, setup_.uav.limits),
+        steps_blocked(mission, *map_, setup_.uav.body)}) {
     if (!why.empty()) return why;
   }
   record_.forget();
@@ -159,7 +160,10 @@ void MissionNode::step(UTime now) {
     return;
   }
   note();
-  if (const auto goal = progress_->due(now)) bus_.publish(channels::kGoal, *goal);
+  if (const auto goal = progress_->due(now)) {
+    if (const auto& limit = progress_->speed_limit()) bus_.publish(channels::kSpeedLimit, *limit);
+    bus_.publish(channels::kGoal, *goal);
+  }
 }
 
 void MissionNode::start(UTime now) {

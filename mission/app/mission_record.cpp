@@ -114,7 +114,8 @@ bool MissionRecord::write_upload(const std::vector<Step>& steps) const {
                     {"action", static_cast<int>(step.action)},
                     {"position", {step.position.x(), step.position.y(), step.position.z()}},
                     {"radius", step.radius},
-                    {"hold_s", step.hold_s}});
+                    {"hold_s", step.hold_s},
+                    {"speed", step.speed}});
   }
   return replace(folder_ + "/uploaded.json", to_text(json));
 }
@@ -129,7 +130,7 @@ std::optional<std::vector<Step>> MissionRecord::read_upload() const try {
     steps.push_back({step.at("name").get<std::string>(), step.at("item").get<int>(),
                      step.at("action").get<int>() == 0 ? Action::Pass : Action::Stop,
                      Vec3(p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()),
-                     step.at("radius").get<double>(), step.at("hold_s").get<double>(), 0});
+                     step.at("radius").get<double>(), step.at("hold_s").get<double>(), 0, step.value("speed", 0.0)});
   }
   return steps;
 } catch (const Json::exception&) {

@@ -12,7 +12,7 @@ namespace tern::mission {
 namespace {
 
 constexpr const char* kColumns[] = {"x",      "y",      "z",        "latitude", "longitude", "height",
-                                    "action", "hold_s", "radius_m", "track",    "name"};
+                                    "action", "hold_s", "radius_m", "speed",    "track",     "name"};
 
 std::string_view trimmed(std::string_view text) {
   constexpr const char* kSpace = " \t\r";
@@ -53,7 +53,7 @@ class Columns {
     Columns columns;
     for (const std::string_view name : cells_of(line)) {
       const bool is_known = std::find(std::begin(kColumns), std::end(kColumns), name) != std::end(kColumns);
-      if (!is_known && asks_for_speed(name)) return fail(fmt::format("column {}: {}", quoted(name), kNoSpeed));
+      if (asks_for_other_speed(name)) return fail(fmt::format("column {} {}", quoted(name), kOtherSpeed));
       if (!is_known)
         return fail(fmt::format("column {} is unknown (known: {})", quoted(name), fmt::join(kColumns, ", ")));
       if (!columns.at_.emplace(name, columns.at_.size()).second)
@@ -78,7 +78,8 @@ class Columns {
     entry.item = item;
     entry.name = text(cells, "name");
     entry.action = text(cells, "action");
-    for (auto [name, value] : {std::pair{"hold_s", &entry.hold_s}, std::pair{"radius_m", &entry.radius}}) {
+    for (auto [name, value] :
+         {std::pair{"hold_s", &entry.hold_s}, std::pair{"radius_m", &entry.radius}, std::pair{"speed", &entry.speed}}) {
       const auto read = number(cells, name);
       if (!read) return tl::unexpected(read.error());
       *value = *read;

@@ -38,6 +38,9 @@ Result<void> add_entry(const Entry& entry, StepList& steps) {
   if (!entry.place && action != "return") return fail(fmt::format("action {}: a position is needed", action));
   const Vec3 place = entry.place.value_or(Vec3::Zero());
   if (const std::string why = why_no_step(place, radius, hold_s); !why.empty()) return fail(why);
+  if (entry.speed && !(*entry.speed > 0.0)) return fail(fmt::format("a speed of {} m/s cannot be flown", *entry.speed));
+  if (const std::string why = why_no_speed(entry.speed.value_or(0.0)); !why.empty()) return fail(why);
+  steps.set_speed(entry.speed.value_or(0.0));
   if (action == "pass") {
     steps.waypoint(name, entry.item, place, radius, 0.0);
   } else if (action == "stop") {

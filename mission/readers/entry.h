@@ -15,6 +15,7 @@ struct Entry {
   std::string name, action;
   std::optional<Vec3> place;             ///< W, m; of `follow` the offset from the track
   std::optional<double> hold_s, radius;  ///< s, m
+  std::optional<double> speed;           ///< m/s
   std::optional<std::int64_t> track;
 };
 

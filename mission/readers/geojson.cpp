@@ -18,11 +18,12 @@ Result<std::optional<double>> number(const Json& properties, const char* name) {
   return std::optional(json.get<double>());
 }
 
-/// Returns the name of a property that asks for a speed; "" if there is none. Other unknown properties are for people.
-std::string speed_among(const Json& properties) {
+/// Returns the name of a property that asks for a speed, but is not `speed`; "" if there is none. Other unknown
+/// properties are for people.
+std::string other_speed_among(const Json& properties) {
   if (!properties.is_object()) return "";
   for (const auto& [name, value] : properties.items()) {
-    if (asks_for_speed(name) && !value.is_null()) return short_text(Json(name));
+    if (asks_for_other_speed(name) && !value.is_null()) return short_text(Json(name));
   }
   return "";
 }
@@ -37,18 +38,21 @@ Result<Vec3> place(const Json& json, const Site& site) {
 }
 
 Result<Entry> entry_of(const Json& properties, int item) {
-  if (const std::string name = speed_among(properties); !name.empty()) {
-    return fail(fmt::format("property {}: {}", name, kNoSpeed));
+  if (const std::string name = other_speed_among(properties); !name.empty()) {
+    return fail(fmt::format("property {} {}", name, kOtherSpeed));
   }
   Entry entry;
   entry.item = item;
   entry.name = short_text(member(properties, "name"));
   entry.action = short_text(member(properties, "action"));
   const auto hold_s = number(properties, "hold_s"), radius = number(properties, "radius_m");
+  const auto speed = number(properties, "speed");
   if (!hold_s) return tl::unexpected(hold_s.error());
   if (!radius) return tl::unexpected(radius.error());
   entry.hold_s = *hold_s;
+  if (!speed) return tl::unexpected(speed.error());
   entry.radius = *radius;
+  entry.speed = *speed;
   if (entry.action == "follow") return fail("action follow needs an offset in x, y, z: write this mission as CSV");
   return entry;
 }

@@ -27,6 +27,7 @@ Result<std::vector<Item>> parse_plan(std::string_view text);
 /// | action | pass, stop, land, return, follow | stop if hold_s > 0, else pass |
 /// | hold_s | how long the vehicle stays, s | 0 |
 /// | radius_m | of pass, m | the configured radius |
+/// | speed | largest speed on the way there, m/s | that of the vehicle |
 /// | track | id of the track to follow | 0 |
 /// | name | for people | waypoint and line |
 ///
@@ -34,7 +35,7 @@ Result<std::vector<Item>> parse_plan(std::string_view text);
 Result<std::vector<Step>> parse_csv(std::string_view text, const Site& site);
 
 /// GeoJSON (RFC 7946): Points, and the corners of LineStrings, in the order of the file; [longitude, latitude, height].
-/// Properties action, hold_s, radius_m, track and name are those of CSV. Features with a property `fence` are skipped:
+/// Properties action, hold_s, radius_m, speed and name are those of CSV. Features with a property `fence` are skipped:
 /// the mapper reads them. Other geometries are refused.
 Result<std::vector<Step>> parse_geojson(std::string_view text, const Site& site);
 

@@ -54,8 +54,10 @@ class StandingVehicle : public ::testing::Test {
     runner_.start("tern-executor", [](Bus& bus) -> std::unique_ptr<Node> {
       return std::make_unique<ExecutorNode>(bus, UavSpec(), ExecutorConfig());
     });
-    runner_.observer().subscribe(channels::kHorizonRequest,
-                                 [&](const HorizonRequest& request) { tubes_.push_back(request.tube); });
+    runner_.observer().subscribe(channels::kHorizonRequest, [&](const HorizonRequest& request) {
+      tubes_.push_back(request.tube);
+      v_max_ = request.limits.v_max;
+    });
     Goal goal;
     goal.id = 1;
     goal.position = Vec3(10, 0, 1);
@@ -81,7 +83,35 @@ class StandingVehicle : public ::testing::Test {
 
   VirtualRunner runner_;
   std::vector<Vec3> tubes_;
+  Vec3 v_max_ = Vec3::Zero();  ///< of the newest request
 };
+
+TEST_F(StandingVehicle, KeepsTheSpeedLimitOfItsGoalAlone) {
+  const auto limit = [&](std::int64_t goal, double speed) {
+    SpeedLimit message;
+    message.goal_id = goal;
+    message.v_max = Vec3::Constant(speed);
+    runner_.observer().publish(channels::kSpeedLimit, message);
+  };
+  const Vec3 own = UavSpec().limits.v_max;
+  limit(2, 0.5);
+  stand(Vec3::Zero(), 0, false);
+  stand(Vec3::Zero(), 0, true);
+  EXPECT_EQ(v_max_, own) << "of a goal to come";
+  Goal goal;
+  goal.id = 2;
+  goal.position = Vec3(10, 0, 1);
+  runner_.observer().publish(channels::kGoal, goal);
+  stand(Vec3::Zero(), 0, true);
+  EXPECT_EQ(v_max_, Vec3::Constant(0.5));
+  limit(1, 0.1);
+  stand(Vec3::Zero(), 0, true);
+  EXPECT_EQ(v_max_, Vec3::Constant(0.5)) << "of a goal that is over";
+  goal.id = 3;
+  runner_.observer().publish(channels::kGoal, goal);
+  stand(Vec3::Zero(), 0, true);
+  EXPECT_EQ(v_max_, own);
+}
 
 TEST_F(StandingVehicle, IsPromisedAWiderTubeAfterTheEstimatorHasShiftedItInFlight) {
   stand(Vec3::Zero(), 0, false);

@@ -181,6 +181,28 @@ const Breakage kBreakages[] = {
      }},
 };
 
+TEST(Executor, ASpeedLimitHoldsOnceTheCommittedMotionKeepsIt) {
+  Executor executor = flying();
+  const Vec3 slow(1.0, 1.0, 50.0);
+  executor.set_speed_limit(slow);
+  const auto first = executor.next_request(kZero);
+  EXPECT_EQ(first->limits.v_max, vehicle().limits.v_max.cwiseMin(slow)) << "never above the vehicle's own";
+  executor.set_speed_limit(std::nullopt);
+  (void)executor.consider(straight_plan(*first, kGoal), kZero + kMs * 20);
+  UTime now = first->deadline + kMs * 1;
+  const auto fast = executor.next_request(now);
+  Plan plan = straight_plan(*fast, kGoal);
+  ASSERT_EQ(executor.consider(plan, now + kMs * 10).verdict, Verdict::Adopted);
+  now = plan.trajectory.start + kMs * 500;
+  executor.set_speed_limit(slow);
+  const auto moving = executor.next_request(now);
+  EXPECT_GT(moving->limits.v_max.x(), 1.0) << "the committed motion is faster";
+  now = plan.trajectory.end() + kMs * 100;
+  const auto resting = executor.next_request(now);
+  ASSERT_TRUE(resting);
+  EXPECT_EQ(resting->limits.v_max.x(), 1.0);
+}
+
 TEST(Executor, RefusesEveryBrokenPlanForItsReasonAndStaysOnItsTrajectory) {
   for (const Breakage& breakage : kBreakages) {
     SCOPED_TRACE(breakage.name);

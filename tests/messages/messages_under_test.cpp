@@ -84,6 +84,7 @@ struct Words {
             s.position_sigma, s.resets);
   }
   void add(const Goal& g) { (*this)(g.header, g.id, g.mode, g.position); }
+  void add(const SpeedLimit& s) { (*this)(s.header, s.goal_id, s.v_max); }
   void add(const ObservationSet& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.detections);
   }
@@ -193,6 +194,7 @@ template std::vector<std::uint64_t> words_of(const PositionFix&);
 template std::vector<std::uint64_t> words_of(const Odometry&);
 template std::vector<std::uint64_t> words_of(const FlightResult&);
 template std::vector<std::uint64_t> words_of(const MapFile&);
+template std::vector<std::uint64_t> words_of(const SpeedLimit&);
 
 template <>
 std::vector<std::int32_t> array_sizes(const UavState&) {
@@ -200,6 +202,10 @@ std::vector<std::int32_t> array_sizes(const UavState&) {
 }
 template <>
 std::vector<std::int32_t> array_sizes(const Goal&) {
+  return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const SpeedLimit&) {
   return {};
 }
 template <>

@@ -77,6 +77,12 @@ TEST(Rejection, OfGoal) {
   EXPECT_EQ(after<Goal>([](auto& g) { g.mode = static_cast<GoalMode>(255); }), "Enumeration");
 }
 
+TEST(Rejection, OfSpeedLimit) {
+  EXPECT_EQ(after<SpeedLimit>([](auto& s) { s.goal_id = 0; }), "Number");
+  EXPECT_EQ(after<SpeedLimit>([](auto& s) { s.v_max.x() = 0.0; }), "Number");
+  EXPECT_EQ(after<SpeedLimit>([](auto& s) { s.v_max.z() = kNaN; }), "Number");
+}
+
 TEST(Rejection, OfCloudScan) {
   EXPECT_EQ(after<CloudScan>([](auto& s) { s.at.us = kFarFuture; }), "Time");
   EXPECT_EQ(after<CloudScan>([](auto& s) { s.sensor_id = -1; }), "Number");

@@ -82,12 +82,52 @@ TEST(MissionItems, ADelayIsAHoldAtTheStepBefore) {
   EXPECT_EQ(steps[0].hold_s, 5.0);
 }
 
+/// As QGroundControl writes it.
+Item change_speed(double speed) {
+  Item item;
+  item.number = 4;
+  item.command = 178;
+  item.frame = 2;
+  item.params = {1.0, speed, -1.0, 0.0};
+  return item;
+}
+
+TEST(MissionItems, ASpeedHoldsForTheStepsAfterItAndTheVehicleRestsBeforeASlowerOne) {
+  const Item a = waypoint(1, 2, 3), b = waypoint(4, 5, 6), c = waypoint(7, 8, 9), d = waypoint(9, 9, 9);
+  const auto steps =
+      steps_of({a, change_speed(2.0), b, change_speed(-1.0), change_speed(3.0), c, change_speed(-2.0), d}, some_site())
+          .value();
+  ASSERT_EQ(steps.size(), 4u);
+  const std::vector<double> speeds = {steps[0].speed, steps[1].speed, steps[2].speed, steps[3].speed};
+  EXPECT_EQ(speeds, (std::vector<double>{0.0, 2.0, 3.0, 0.0}));
+  EXPECT_EQ(steps[0].action, Action::Stop);
+  EXPECT_EQ(steps[1].action, Action::Pass);
+  EXPECT_EQ(steps[2].action, Action::Pass);
+}
+
+TEST(MissionItems, SpeedsThatAreNotThoseOverTheGroundAreRefused) {
+  EXPECT_EQ(refusal(change_speed(0.0)), "item 4, MAV_CMD_DO_CHANGE_SPEED (178): a speed of 0 m/s cannot be flown");
+  EXPECT_THAT(refusal(change_speed(-3.0)), HasSubstr("a speed of -3 m/s is out of range [0.1, 100]"));
+  Item item = change_speed(2.0);
+  item.params[0] = 2.0;
+  EXPECT_THAT(refusal(item), HasSubstr("param1 = 2 is not a ground speed (1)"));
+  item = change_speed(2.0);
+  item.params[2] = 50.0;
+  EXPECT_THAT(refusal(item), HasSubstr("a throttle (param3 = 50) cannot be flown"));
+}
+
+/// QGroundControl writes a radius of 50 m for every vehicle.
+TEST(MissionItems, AMulticopterLoitersOnTheSpot) {
+  Item item = waypoint(1, 2, 3);
+  item.command = 19;
+  item.params = {30.0, 0.0, 50.0, 0.0};
+  const auto steps = steps_of({item}, some_site()).value();
+  EXPECT_EQ(steps[0].action, Action::Stop);
+  EXPECT_EQ(steps[0].hold_s, 30.0);
+}
+
 TEST(MissionItems, WhatCannotBeFlownIsRefusedByName) {
   Item item = waypoint(1, 2, 3);
-  item.command = 178;
-  EXPECT_EQ(refusal(item),
-            "item 3, MAV_CMD_DO_CHANGE_SPEED (178): a speed cannot be flown; the vehicle flies at uav.limits.v_max of "
-            "the scenario: set that, and leave the speed out");
   item.command = 31'999;
   EXPECT_EQ(refusal(item), "item 3, MAV_CMD 31999: cannot be flown");
   item = waypoint(1, 2, 3);

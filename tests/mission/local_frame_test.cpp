@@ -1,11 +1,15 @@
 // The frame W on the earth.
 #include "geodesy/local_frame.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace tern {
 namespace {
@@ -43,6 +47,32 @@ RC_GTEST_PROP(LocalFrame, IsEastNorthUpOfTheEllipsoid, ()) {
   const GeodeticPoint back = frame.from_world(p);
   RC_ASSERT(std::abs(back.latitude - place.latitude) < 1e-11);
   RC_ASSERT(std::abs(back.height - place.height) < 1e-6);
+}
+
+/// CartConvert is GeographicLib's own program.
+TEST(LocalFrame, AgreesWithCartConvertWithinACentimetreAtFiveKilometres) {
+  const GeodeticPoint origin{47.3977, 8.5456, 488.0};
+  const LocalFrame frame = LocalFrame::at(origin).value();
+  std::string command = "printf '";
+  std::vector<Vec3> ours;
+  for (int k = 0; k < 36; ++k) {
+    const double angle = k * std::numbers::pi / 18.0;
+    const GeodeticPoint place{origin.latitude + 5000.0 / 111'178.0 * std::sin(angle),
+                              origin.longitude + 5000.0 / 75'400.0 * std::cos(angle), 488.0 + 10.0 * k};
+    ours.push_back(frame.to_world(place));
+    command += fmt::format("{:.12f} {:.12f} {:.6f}\\n", place.latitude, place.longitude, place.height);
+  }
+  command += fmt::format("' | CartConvert -p 6 -l {} {} {}", origin.latitude, origin.longitude, origin.height);
+  FILE* const pipe = popen(command.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  for (const Vec3& p : ours) {
+    Vec3 theirs;
+    ASSERT_EQ(std::fscanf(pipe, "%lf %lf %lf", &theirs.x(), &theirs.y(), &theirs.z()), 3)
+        << "CartConvert is of the package geographiclib-tools";
+    EXPECT_NEAR(p.head<2>().norm(), 5000.0, 30.0);
+    EXPECT_LT((p - theirs).norm(), 0.01);
+  }
+  EXPECT_EQ(pclose(pipe), 0);
 }
 
 TEST(LocalFrame, CurvesAwayWithTheEarth) {

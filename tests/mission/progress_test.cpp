@@ -268,6 +268,48 @@ TEST_F(FollowingMission, FailsWhenTheTrackIsLost) {
   EXPECT_THAT(progress_.text(), HasSubstr("track 7 was not in PREDICTIONS for 5 s"));
 }
 
+TEST(VelocityLimits, AreTheSpeedOnTheStraightWayAndNeverAboveTheVehicles) {
+  Limits limits;
+  limits.v_max = Vec3(6, 6, 2);
+  for (double angle = 0.0; angle < 6.3; angle += 0.1) {
+    const Vec3 way(std::cos(angle), std::sin(angle), 0.3);
+    const Vec3 v = velocity_limits(3.0, Vec3(1, 2, 3), Vec3(1, 2, 3) + 20.0 * way, limits);
+    const Eigen::Vector2d d = way.head<2>().cwiseAbs();
+    EXPECT_GE((v.head<2>().array() - 3.0 * d.array()).minCoeff(), -1e-12) << "the straight way is flown at 3 m/s";
+    EXPECT_LE(v.head<2>().norm(), 3.0 * std::sqrt(1.5) + 1e-12);
+    EXPECT_EQ(v.z(), 2.0);
+  }
+  EXPECT_EQ(velocity_limits(50.0, Vec3::Zero(), Vec3::UnitX(), limits), limits.v_max);
+  EXPECT_NEAR(velocity_limits(1.0, Vec3::Zero(), Vec3::UnitZ(), limits).x(), std::sqrt(0.5), 1e-12);
+}
+
+class SlowMission : public MissionProgress {
+ protected:
+  static Mission slow_at_last() {
+    Mission mission = three_steps();
+    mission.steps[2].speed = 1.5;
+    return mission;
+  }
+  SlowMission() : MissionProgress(slow_at_last()) {}
+};
+
+TEST_F(SlowMission, SendsTheSpeedOfAStepWithItsGoal) {
+  begin();
+  EXPECT_FALSE(progress_.speed_limit());
+  state({10, 0, 2}, {5, 0, 0});
+  state({20, 0, 2});
+  wait(3.1);
+  state({20, 0, 2});
+  ASSERT_TRUE(goal());
+  ASSERT_TRUE(progress_.speed_limit());
+  EXPECT_EQ(progress_.speed_limit()->goal_id, newest_.id);
+  EXPECT_EQ(progress_.speed_limit()->v_max.x(), 1.5);
+  ASSERT_TRUE(progress_.pause(now_));
+  EXPECT_FALSE(progress_.speed_limit());
+  ASSERT_TRUE(progress_.go_on(now_));
+  EXPECT_TRUE(progress_.speed_limit());
+}
+
 TEST(GoalIds, AscendAndCarryTheStep) {
   std::int64_t largest = 0;
   UTime now = kStart;

@@ -80,15 +80,26 @@ TEST(MissionFile, RefusalsNameFileLineAndValue) {
   EXPECT_EQ(refusal(std::string(100'000, '['), "a.plan"), "a.plan: is nested more deeply than 32 levels");
 }
 
-TEST(MissionFile, ASpeedIsRefusedByNameWhereverItStands) {
+TEST(MissionFile, ASpeedIsReadAndOneOfAnotherNameRefused) {
   const auto geojson = [](const std::string& property) {
     return R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {)" + property +
            R"(}, "geometry": {"type": "Point", "coordinates": [8.5457, 47.3978, 10]}}]})";
   };
+  const auto speeds_of = [](const std::string& text, const std::string& file) {
+    std::vector<double> speeds;
+    const Mission mission = parse_mission(text, file, testing::some_site()).value();
+    for (const Step& step : mission.steps) speeds.push_back(step.speed);
+    return speeds;
+  };
+  EXPECT_EQ(speeds_of("x,y,z,speed\n1,2,3,4\n5,6,7,\n", "a.csv"), (std::vector<double>{4.0, 0.0}));
+  EXPECT_EQ(speeds_of(geojson(R"("speed": 3)"), "a.geojson"), std::vector<double>{3.0});
+  EXPECT_EQ(refusal("x,y,z,speed\n1,2,3,0\n", "a.csv"), "a.csv: line 2: a speed of 0 m/s cannot be flown");
+  EXPECT_EQ(refusal("x,y,z,speed\n1,2,3,1e3\n", "a.csv"),
+            "a.csv: line 2: a speed of 1000 m/s is out of range [0.1, 100]");
   EXPECT_EQ(refusal("x,y,z,Speed_mps\n1,2,3,4\n", "a.csv"),
-            std::string("a.csv: line 1: column \"Speed_mps\": ") + kNoSpeed);
-  EXPECT_EQ(refusal(geojson(R"("speed": 3)"), "a.geojson"),
-            std::string("a.geojson: features[0]: property speed: ") + kNoSpeed);
+            std::string("a.csv: line 1: column \"Speed_mps\" ") + kOtherSpeed);
+  EXPECT_EQ(refusal(geojson(R"("max_velocity": 3)"), "a.geojson"),
+            std::string("a.geojson: features[0]: property max_velocity ") + kOtherSpeed);
   EXPECT_EQ(refusal(geojson(R"("colour": "red", "maxSpeed": null)"), "a.geojson"), "");
 }
 

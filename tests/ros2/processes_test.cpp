@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <random>
+#include <sstream>
 
 #include "tests/ros2/fast_peer.h"
 #include "tests/support/bridge_process.h"
@@ -180,6 +184,72 @@ TEST_F(Ros2Processes, PassGoalsOnceAndRefuseThoseOutsideTheFlightBox) {
   ASSERT_TRUE(wait_for([&] { return goals.back().id > goals[0].id; }));
   EXPECT_EQ(goals.back().position, Vec3(30.0, 0.0, 2.0));
   EXPECT_EQ(ros.seen("rt/goal_pose")->user_data, "") << "the test's own writer: a topic that is received is not sent";
+}
+
+TEST_F(Ros2Processes, LoseNoMessageForAReliableReader) {
+  const int all = support::at_effort(10'000);
+  start();
+  auto* reader = ros.reader<nav_msgs::msg::dds_::Odometry_PubSubType>("rt/odom", {.depth = 1'000});
+  std::vector<double> received;
+  const auto take = [&] {
+    while (const auto odometry = FastPeer::take<nav_msgs::msg::dds_::Odometry_>(reader)) {
+      received.push_back(odometry->pose().pose().position().x());
+    }
+  };
+  const auto send = [&](double x) {
+    UavState state = some_state();
+    state.motion.p.x() = x;
+    bus->publish(kUavState, state);
+  };
+  ASSERT_TRUE(repeat_until([&] { send(-1.0); },
+                           [&] {
+                             take();
+                             return !received.empty();
+                           }))
+      << "the reader is matched";
+  int sent = 0;
+  ASSERT_TRUE(live_until(
+      [&] {
+        if (sent < all) send(sent++);
+      },
+      [&] {
+        take();
+        return received.back() == all - 1;
+      }));
+  received.erase(received.begin(), std::find(received.begin(), received.end(), 0.0));
+  ASSERT_EQ(received.size(), static_cast<std::size_t>(all));
+  for (int k = 0; k < all; ++k) ASSERT_EQ(received[static_cast<std::size_t>(k)], k);
+}
+
+/// Without a peer in this namespace, whose own packets would count as well.
+class Ros2Alone : public BridgeProcess {};
+
+TEST_F(Ros2Alone, StaysOnThisHostUnlessAsked) {
+  const auto run = [](const std::string& command) { return std::system(command.c_str()) == 0; };
+  ASSERT_TRUE(
+      run("ip link add wire0 type dummy && sysctl -qw net.ipv6.conf.wire0.disable_ipv6=1 && "
+          "ip addr add 10.9.8.7/24 dev wire0 && ip link set wire0 up"));
+  const auto packets_sent = [] {
+    std::ifstream file("/proc/net/dev");
+    for (std::string line; std::getline(file, line);) {
+      std::istringstream words(line);
+      std::string name;
+      std::int64_t number[10] = {};
+      words >> name;
+      for (std::int64_t& n : number) words >> n;
+      if (name == "wire0:") return number[9];
+    }
+    return std::int64_t{-1};
+  };
+  ASSERT_EQ(packets_sent(), 0);
+  std::vector<std::string> command{TERN_ROS2, "--domain", std::to_string(kDomain)};
+  start_bridge_and_wait(command);
+  ASSERT_TRUE(wait_for([&] { return beats.size() > 6; })) << "3 s: DDS announces itself each second";
+  EXPECT_EQ(packets_sent(), 0);
+  end_and_show(*bridge);
+  command.insert(command.end(), {"--interface", "wire0"});
+  start_bridge_and_wait(command);
+  EXPECT_TRUE(wait_for([&] { return packets_sent() > 0; }));
 }
 
 TEST_F(Ros2Processes, OutliveAPeerThatLeaves) {

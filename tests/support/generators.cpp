@@ -85,6 +85,12 @@ Goal random_message(Rng& rng, Fill) {
 }
 
 template <>
+SpeedLimit random_message(Rng& rng, Fill) {
+  const auto limit = [&rng] { return number(rng, kMinLimit, kMaxSpeedLimit); };
+  return {header(rng), integer(rng, 1, kMaxGoalId), {limit(), limit(), limit()}};
+}
+
+template <>
 ObservationSet random_message(Rng& rng, Fill fill) {
   ObservationSet set;
   set.header = header(rng);

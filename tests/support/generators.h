@@ -9,6 +9,7 @@
 #include "core/world/observation.h"
 #include "core/world/scan.h"
 #include "core/world/search_view.h"
+#include "core/world/speed_limit.h"
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
 #include "core/world/vehicle.h"

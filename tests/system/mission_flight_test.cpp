@@ -146,10 +146,11 @@ TEST_F(MissionFlight, RefusesAWaypointBeyondAFenceBeforeTheFlight) {
 }
 
 TEST_F(MissionFlight, RefusesByNameWhatCannotBeFlown) {
-  for (const auto& [mission, why] : {std::pair{"x,y,z\n30,0,2\n",
-                                               "waypoint 1 at (30.00, 0.00, 2.00) m is outside the "
-                                               "flight box by 5.10 m on x"},
-                                     std::pair{"x,y,z,speed\n5,0,2,3\n", "a speed cannot be flown"}}) {
+  for (const auto& [mission, why] :
+       {std::pair{"x,y,z\n30,0,2\n",
+                  "waypoint 1 at (30.00, 0.00, 2.00) m is outside the "
+                  "flight box by 5.10 m on x"},
+        std::pair{"x,y,z,speed\n5,0,2,9\n", "has a speed of 9 m/s; that of the vehicle is 4"}}) {
     try {
       load(mission);
       FAIL() << "not refused";
@@ -177,6 +178,43 @@ TEST_F(MissionFlight, FollowsATrackThatMovesAtFourMetresPerSecond) {
   ASSERT_TRUE(result().has_value()) << said_;
   expect_reached(*result());
   EXPECT_GT(flown_.back().motion.p.x(), 15.0);
+  const UTime zero = system_->simulator().world_zero().value();
+  for (const UavState& state : flown_) {
+    if (flown_.back().at - state.at > Duration{3'000'000}) continue;
+    const double place = 6.0 + 4.0 * ((state.at - zero).seconds() - 2.0) - 3.0;
+    ASSERT_LT((place - state.motion.p.x()) / 4.0, 2.0) << "s behind its place beside the track";
+  }
+}
+
+TEST_F(MissionFlight, FliesItsLegsAtTheirSpeeds) {
+  load("x,y,z,speed\n0,10,2,1\n20,10,2,3\n20,0,2,\n", {"world.fences=[]", "world.obstacles=[]"});
+  fly(120.0);
+  ASSERT_TRUE(result().has_value()) << said_;
+  expect_reached(*result());
+  double first = 0.0, second = 0.0, third = 0.0;  // the largest speeds of the legs, m/s
+  for (const UavState& state : flown_) {
+    const Vec3 p = state.motion.p;
+    const double speed = state.motion.v.head<2>().norm();
+    if (p.x() < 1.0 && p.y() < 7.0) first = std::max(first, speed);
+    if (p.y() > 8.5 && p.x() > 3.0 && p.x() < 17.0) second = std::max(second, speed);
+    if (p.x() > 18.5 && p.y() < 7.0) third = std::max(third, speed);
+  }
+  EXPECT_NEAR(first, 1.0, 0.1);
+  EXPECT_NEAR(second, 3.0, 0.3);
+  EXPECT_NEAR(third, 4.0, 0.2);
+  EXPECT_EQ(result()->stops, 1) << "the legs become faster, so it rests at the end alone";
+}
+
+TEST_F(MissionFlight, RestsBeforeASlowerLeg) {
+  load("x,y,z,speed\n20,0,2,\n20,10,2,1\n", {"world.fences=[]", "world.obstacles=[]"});
+  fly(120.0);
+  ASSERT_TRUE(result().has_value()) << said_;
+  expect_reached(*result());
+  EXPECT_EQ(result()->stops, 2);
+  for (const UavState& state : flown_) {
+    const bool is_slow_leg = state.motion.p.y() > 1.0;
+    ASSERT_LT(state.motion.v.head<2>().norm(), is_slow_leg ? 1.0 * 1.23 + 0.05 : 1e3);
+  }
 }
 
 }  // namespace
