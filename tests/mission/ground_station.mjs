@@ -106,8 +106,10 @@ for (const missionType of [1, 2]) { // fences, rally points
   assert.deepEqual([ack.type, ack.missionType], [kUnsupported, missionType]);
   assert.match(said(), /fences and rally points cannot be uploaded/);
 }
-assert.equal(await upload([mission[0], speed, mission[1]]), kInvalid);
-assert.match(said(), /MAV_CMD_DO_CHANGE_SPEED \(178\): a speed cannot be flown/);
+assert.equal(await upload([mission[0], { ...speed, param2: 90 }, mission[1]]), kInvalid);
+assert.match(said(), /has a speed of 90 m\/s; that of the vehicle is/);
+assert.equal(await upload([mission[0], speed, { ...mission[1], command: 82 }]), kInvalid);
+assert.match(said(), /MAV_CMD_NAV_SPLINE_WAYPOINT \(82\): cannot be flown/);
 assert.equal((await download()).length, 3, 'the mission before is kept');
 assert.equal(await start(1), kDenied);
 assert.equal(await start(0), kAccepted);
