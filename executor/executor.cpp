@@ -43,6 +43,21 @@ CommittedTrajectory stopping(const UavState& measured, const Limits& limits) {
   return committed;
 }
 
+/// Returns the largest |v| per axis between t and t + dt, s, within one interval. There a is linear, so v is extreme at
+/// an end, or where a is zero.
+Vec3 largest_velocity(const ClampedSpline& spline, double t, double dt) {
+  const MotionSample from = spline.sample(t);
+  const MotionSample to = spline.sample(t + dt);
+  const Vec3 a = from.a, change = to.a - a;
+  Vec3 largest = from.v.cwiseAbs().cwiseMax(to.v.cwiseAbs());
+  for (int axis = 0; axis < 3; ++axis) {
+    if (a[axis] * (a[axis] + change[axis]) >= 0.0) continue;
+    const double extreme = from.v[axis] - 0.5 * dt * a[axis] * a[axis] / change[axis];
+    largest[axis] = std::max(largest[axis], std::abs(extreme));
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::int64_t ExecutorCounters::refused() const {
@@ -58,7 +73,6 @@ Executor::Executor(const UavSpec& uav, UTime now, const ExecutorConfig& config)
 
 Executor::Executor(const UavSpec& uav, const UavState& measured, const ExecutorConfig& config)
     : limits_(uav.limits),
-      v_max_(uav.limits.v_max),
       body_(uav.body),
       flight_box_(uav.flight_box),
       period_(checked_period(config.rate_hz)),
@@ -127,10 +141,24 @@ Limits Executor::limits_for(const TimedSpline& committed, UTime from) const {
     bounds.a_max = bounds.a_max.cwiseMax(part.a_max);
     bounds.j_max = bounds.j_max.cwiseMax(part.j_max);
   }
-  Limits limits{widened(share_ * v_max_, bounds.v_max), widened(share_ * limits_.a_max, bounds.a_max),
+  Limits limits{widened(share_ * limits_.v_max, bounds.v_max), widened(share_ * limits_.a_max, bounds.a_max),
                 widened(share_ * limits_.j_max, bounds.j_max)};
+  if (speed_limit_) limits.v_max = limits.v_max.cwiseMin(*speed_limit_);
   if (limits_.dynamics && breach_of(spline, *limits_.dynamics).ok()) limits.dynamics = limits_.dynamics;
   return limits;
+}
+
+bool Executor::is_too_fast(const TimedSpline& committed, UTime from) const {
+  if (!speed_limit_) return false;
+  const ClampedSpline spline = committed.spline();
+  Vec3 fastest = Vec3::Zero();
+  for (int j = 0; j < spline.intervals(); ++j) {
+    const UTime begin = std::max(committed.start + committed.interval * j, from);
+    const UTime end = committed.start + committed.interval * (j + 1);
+    if (end <= from) continue;
+    fastest = fastest.cwiseMax(largest_velocity(spline, (begin - committed.start).seconds(), (end - begin).seconds()));
+  }
+  return (fastest.array() > speed_limit_->array() * (1.0 + kLimitTolerance)).any();
 }
 
 void Executor::close(bool answered) {
@@ -156,18 +184,19 @@ std::optional<HorizonRequest> Executor::next_request(UTime now) {
   close_expired(now);
   const std::optional<UTime> due = next_wakeup();
   if (!due || now < *due) return std::nullopt;
+  last_request_ = now;
   HorizonRequest request;
-  request.id = ++counters_.requests;
   request.t_s = now + lead_;
-  request.deadline = request.t_s - kDeadlineLead;
   request.committed = committed_.in_force_at(request.t_s);
+  if (is_too_fast(request.committed, request.t_s)) return std::nullopt;
+  request.id = ++counters_.requests;
+  request.deadline = request.t_s - kDeadlineLead;
   request.start = committed_.sample(request.t_s);
   request.limits = limits_for(request.committed, request.t_s);
   request.body = body_;
   request.flight_box = flight_box_for(request.committed);
   request.tube = tube_;
   sent_start_ = request.committed.start;
-  last_request_ = now;
   outstanding_ = request;
   return request;
 }

@@ -58,7 +58,8 @@ struct ExecutorCounters {
 ///
 /// 1. At most one request is outstanding. The next one follows its answer or its deadline, at no more than rate_hz.
 /// 2. An answer is in time if now ≤ deadline. After the deadline the request is closed, and its answer is refused.
-/// 3. No requests are made before the time of begin(), after pause(), without a goal mode, or in mode Stop.
+/// 3. No requests are made before the time of begin(), after pause(), without a goal mode, or in mode Stop. Neither are
+///    they while the committed trajectory is faster than the speed limit.
 /// 4. For a stationary vehicle requests continue, also at the goal: it must be able to evade.
 class Executor {
  public:
@@ -90,11 +91,10 @@ class Executor {
   bool drop_unsent_plan(UTime last_setpoint);
   /// Sets the mode of the newest goal; nullopt: no goal was received.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
-  /// Sets the largest velocity of the next requests, per axis of W, m/s; nullopt: that of the vehicle. A vehicle that
-  /// is committed to fly faster keeps its speed until it next rests.
-  void set_speed_limit(const std::optional<Vec3>& v_max) {
-    v_max_ = v_max ? v_max->cwiseMin(limits_.v_max) : limits_.v_max;
-  }
+  /// Sets the largest velocity of the next requests, per axis of W, m/s; nullopt: that of the vehicle. While the
+  /// committed trajectory is faster, no requests are made. It ends at rest, so that is over when the vehicle has
+  /// braked.
+  void set_speed_limit(const std::optional<Vec3>& v_max) { speed_limit_ = v_max; }
 
   /// Returns the request that is due at `now`, with an empty header, or nullopt if none is due.
   std::optional<HorizonRequest> next_request(UTime now);
@@ -129,8 +129,11 @@ class Executor {
     UTime from;
     Vec3 tube;
   };
-  /// The vehicle's limits times share_, or the largest values of `committed` after `from` where those are larger.
+  /// The vehicle's limits times share_, or the largest values of `committed` after `from` where those are larger. The
+  /// speed limit cuts both.
   [[nodiscard]] Limits limits_for(const TimedSpline& committed, UTime from) const;
+  /// Whether `committed` is faster than the speed limit after `from`.
+  [[nodiscard]] bool is_too_fast(const TimedSpline& committed, UTime from) const;
   /// The flight box, enlarged where `committed` leaves it.
   [[nodiscard]] Box flight_box_for(const TimedSpline& committed) const;
   [[nodiscard]] Adoption judge(const Plan& plan, UTime now);
@@ -139,7 +142,7 @@ class Executor {
   void close(bool answered);
 
   Limits limits_;
-  Vec3 v_max_;  ///< of requests: SPEED_LIMIT, or limits_.v_max
+  std::optional<Vec3> speed_limit_;
   Body body_;
   Box flight_box_;
   Duration period_, lead_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace tern::mavlink {
 namespace {
@@ -99,7 +100,8 @@ void Bridge::order_flight() {
 }
 
 void Bridge::flight_is_under_way() {
-  if (!flies() && !ordered_by_goal_) ordered_ = false;
+  if (flies() || ordered_by_goal_ || !std::exchange(ordered_, false)) return;
+  out_.log("a GOAL is older than this bridge: the flight is under way or over, so it does not arm");
 }
 
 void Bridge::land(const std::string& why) {

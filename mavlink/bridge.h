@@ -168,11 +168,11 @@ class Bridge {
     bool take_off_asked = false;       ///< Engaging
     std::optional<UTime> rests_since;  ///< Climbing: at uav.start
     bool landing_seen = false;         ///< Landing: the autopilot has reported the landing mode
+    bool battery_missed = false;       ///< Following: it was logged that no charge is reported
   };
 
   // Stages (bridge_stages.cpp).
   void enter(Stage stage, const std::string& why = {});
-  void begin_following();
   void step_stage(UTime now);
   void step_waiting(UTime now);
   void step_ready(UTime now);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "mavlink/bridge.h"
 
@@ -27,6 +28,8 @@ constexpr Duration kTakeOffPeriod{3'000'000};
 constexpr Duration kHomePatience{1'000'000};
 /// An estimate that has been apart from external vision for this long is not waited for any longer.
 constexpr Duration kApartPatience{1'000'000};
+/// An autopilot reports its battery within this time.
+constexpr Duration kBatteryPatience{2'000'000};
 /// Deceleration when the vehicle is taken over in flight, m/s².
 constexpr double kStop = 4.0;
 
@@ -48,13 +51,8 @@ void Bridge::enter(Stage stage, const std::string& why) {
   at_.since = now_;
   out_.expect_command(now_);
   if (stage == Stage::Waiting) own_.reset();
-  if (stage == Stage::Following) begin_following();
+  if (stage == Stage::Following) has_followed_ = true;
   if (stage == Stage::Engaging) modes_.keep_found_once(autopilot_);
-}
-
-void Bridge::begin_following() {
-  has_followed_ = true;
-  if (!autopilot_.battery()) out_.log("the autopilot reports no battery charge: a low one will not end the flight");
 }
 
 void Bridge::stand_back(const std::string& why) {
@@ -189,6 +187,9 @@ void Bridge::follow(UTime now) {
   }
   if (!near && followed_) hold_here(now);
   followed_ = near;
+  if (!autopilot_.battery() && now - at_.since > kBatteryPatience && !std::exchange(at_.battery_missed, true)) {
+    out_.log("the autopilot reports no battery charge: a low one will not end the flight");
+  }
   if (!near || !here) return tracking_.pause();
   const auto gains = autopilot_.stack().level_gains(autopilot_.parameters());
   tracking_.add(*here, command_.sample(here->at), gains);

@@ -11,7 +11,7 @@ struct wire::Form<SpeedLimit> {
   static void fields(auto& io, auto& m, auto& limit) {
     io.header("header", m.header, limit.header);
     io.integer("goal_id", m.goal_id, limit.goal_id, 1, kMaxGoalId);
-    io.vec3("v_max", m.v_max, limit.v_max, kMinLimit, kMaxSpeedLimit);
+    io.vec3("v_max", m.v_max, limit.v_max, 0.05, kMaxSpeedLimit);  // a slower vehicle can evade nobody
   }
 };
 

@@ -25,13 +25,8 @@ struct Step {
   double radius = 0.0;           ///< m: Pass counts within it; 0: the configured radius
   double hold_s = 0.0;           ///< Stop, Follow: how long it stays
   std::int64_t track = 0;        ///< Follow: id of the track in PREDICTIONS
-  double speed = 0.0;            ///< largest speed on the way there, m/s (speed_limit()); 0: that of the vehicle
+  double speed = 0.0;            ///< largest speed on the way there, m/s (velocity_limits()); 0: that of the vehicle
 };
-
-/// Whether `next` is flown more slowly than `step`.
-inline bool is_slower(const Step& next, const Step& step) {
-  return next.speed > 0.0 && (step.speed == 0.0 || next.speed < step.speed);
-}
 
 struct Mission {
   std::string file;

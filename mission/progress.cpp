@@ -88,12 +88,14 @@ void Progress::send(GoalMode mode, const Vec3& position, UTime now) {
   goal_->position = position;
   largest_id_ = goal_->id;
   next_goal_ = now;
-  const double speed = mission_.steps[idx(step_)].speed;
+  const Step& step = mission_.steps[idx(step_)];
   speed_limit_.reset();
-  if (mode != GoalMode::Go || speed == 0.0) return;
+  if (mode != GoalMode::Go || step.speed == 0.0) return;
   speed_limit_.emplace();
   speed_limit_->goal_id = goal_->id;
-  speed_limit_->v_max = velocity_limits(speed, sent_from_, position, limits_);
+  speed_limit_->v_max = step.action == Action::Follow
+                            ? limits_.v_max.cwiseMin(Vec3(step.speed, step.speed, limits_.v_max.z()))
+                            : velocity_limits(step.speed, position_, position, limits_);
 }
 
 void Progress::fly_to(int step, UTime now) {

@@ -62,10 +62,7 @@ Result<std::vector<Step>> StepList::take() {
   if (steps_.size() > static_cast<std::size_t>(kMaxSteps)) {
     return fail(fmt::format("takes {} steps (limit {})", steps_.size(), kMaxSteps));
   }
-  for (std::size_t k = 0; k < steps_.size(); ++k) {
-    const bool must_rest = k + 1 == steps_.size() || is_slower(steps_[k + 1], steps_[k]);
-    if (must_rest && steps_[k].action == Action::Pass) steps_[k].action = Action::Stop;
-  }
+  if (steps_.back().action == Action::Pass) steps_.back().action = Action::Stop;
   return std::move(steps_);
 }
 

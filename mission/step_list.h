@@ -42,8 +42,8 @@ class StepList {
   [[nodiscard]] bool empty() const { return steps_.empty(); }
   /// The position of the last step, or home.
   [[nodiscard]] const Vec3& last() const;
-  /// Returns the steps. A Pass becomes a Stop at the end, and before a slower step: a lower speed holds from a rest on.
-  /// An Error if there is none, or too many.
+  /// Returns the steps; the last one is never a Pass, since the vehicle ends at rest. An Error if there is none, or too
+  /// many.
   [[nodiscard]] Result<std::vector<Step>> take();
 
  private:

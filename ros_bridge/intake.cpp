@@ -133,14 +133,15 @@ OdometryReading reading_of(const PoseInWorld& pose) {
 Taken<Vec3> sensor_of(const ros::PointCloud2& cloud, UTime at, const IntakeContext& context) {
   if (!context.cloud_sensor.empty()) return pose_of(context.cloud_sensor, at, context).map(&RigidTransform::p);
   const std::string& frame = cloud.header.frame_id;
-  if (context.is_world(frame)) {
-    if (context.vehicle) return *context.vehicle;
+  if (!context.vehicle) {
     return refuse(fmt::format("a cloud in {} needs the vehicle's position, which is not known yet", frame));
   }
+  if (context.is_world(frame)) return *context.vehicle;
   const auto T_WF = pose_of(frame, at, context);
   if (!T_WF) return tl::unexpected(T_WF.error());
-  const double away = context.vehicle ? (T_WF->p - *context.vehicle).norm() : 0.0;
-  if (away <= kOnVehicle) return T_WF->p;
+  const double away = (T_WF->p - *context.vehicle).norm();
+  const double moved = context.vehicle_speed * std::max((context.now - at).seconds(), 0.0);
+  if (away <= kOnVehicle + moved) return T_WF->p;
   return refuse(
       fmt::format("the origin of its frame {} lies {:.1f} m from the vehicle: name the lidar's frame by cloud-sensor",
                   frame, away));

@@ -42,6 +42,7 @@ struct IntakeContext {
   const TransformBuffer& transforms;
   UTime now;
   std::optional<Vec3> vehicle = {};  ///< its newest position, W
+  double vehicle_speed = 0.0;        ///< m/s
   double detection_sigma_m = 0.1;    ///< standard deviation of positions without covariance, m
   double detection_range_m = 0.0;    ///< of the detector, m; 0: unlimited
   double cloud_range_m = 0.0;        ///< of the lidar, m; 0: unlimited
@@ -77,8 +78,9 @@ Taken<Vec3> read(const ros::PoseStamped& goal, const IntakeContext& context);
 /// The scans of a cloud with float32 fields x, y, z, and with `class` (uint8) if it has one. Rays begin at the origin
 /// of cloud_sensor. If that is empty: at the vehicle for a cloud in a world, and at the origin of the cloud's frame
 /// otherwise.
-/// @return a Refusal also if, without cloud_sensor, that origin is farther than kOnVehicle from the vehicle. Such a
-///   frame is `odom`, or a lidar's fixed world, and space that no ray has passed would become free
+/// @return a Refusal also if, without cloud_sensor, the vehicle's position is unknown. The same if that origin is farther
+///   from it than kOnVehicle and the way since the cloud's stamp. Such a frame is `odom`, or a lidar's fixed world, and
+///   space that no ray has passed would become free
 Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeContext& context);
 
 /// The parts of an OctoMap as a file, whose time is context.now: an OctoMap stays valid however old it is. Its frame

@@ -257,20 +257,21 @@ void ExecutorNode::on_goal(const Goal& goal) {
   log::info("goal {}: mode {}, ({:.2f}, {:.2f}, {:.2f}) m", goal.id, to_string(goal.mode), goal.position.x(),
             goal.position.y(), goal.position.z());
   goal_ = goal;
+  speed_limit_ = next_speed_limit_ && next_speed_limit_->goal_id == goal.id ? next_speed_limit_ : std::nullopt;
   next_goal_ = bus_.clock().now();
   if (executor_) executor_->set_mode(goal.mode);
   use_speed_limit();
 }
 
 void ExecutorNode::on_speed_limit(const SpeedLimit& limit) {
-  if (speed_limit_ && limit.goal_id < speed_limit_->goal_id) return;
-  speed_limit_ = limit;
+  if (goal_ && limit.goal_id < goal_->id) return;
+  const bool is_of_a_goal_to_come = !goal_ || limit.goal_id > goal_->id;
+  (is_of_a_goal_to_come ? next_speed_limit_ : speed_limit_) = limit;
   use_speed_limit();
 }
 
 void ExecutorNode::use_speed_limit() {
-  const bool holds = speed_limit_ && goal_ && speed_limit_->goal_id == goal_->id;
-  if (executor_) executor_->set_speed_limit(holds ? std::optional(speed_limit_->v_max) : std::nullopt);
+  if (executor_) executor_->set_speed_limit(speed_limit_ ? std::optional(speed_limit_->v_max) : std::nullopt);
 }
 
 void ExecutorNode::on_plan(const Plan& plan) {

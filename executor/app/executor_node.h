@@ -24,7 +24,8 @@
 namespace tern {
 
 /// Flies plans: requests them, adopts them, and publishes a setpoint at 100 Hz and at each knot of the trajectory.
-/// Receives UAV_STATE, VEHICLE_STATUS, GOAL, PLAN and PLAN_HEADING; publishes HORIZON_REQUEST, SETPOINT and GOAL.
+/// Receives UAV_STATE, VEHICLE_STATUS, GOAL, SPEED_LIMIT, PLAN and PLAN_HEADING; publishes HORIZON_REQUEST, SETPOINT and
+/// GOAL.
 ///
 /// | state     | entered when                                                  | publishes      | requests plans    |
 /// |-----------|---------------------------------------------------------------|----------------|-------------------|
@@ -119,7 +120,7 @@ class ExecutorNode final : public Node {
   std::optional<Executor> executor_;
   std::optional<UTime> stationary_since_;
   std::optional<Goal> goal_;
-  std::optional<SpeedLimit> speed_limit_;  ///< the newest; it holds if it names goal_
+  std::optional<SpeedLimit> speed_limit_, next_speed_limit_;  ///< of goal_; of a goal to come
   VehicleInputs inputs_;
   RejoinGuard guard_;
   VehicleStatus status_;          ///< newest; does not follow before the first

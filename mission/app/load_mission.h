@@ -12,7 +12,8 @@ namespace tern::mission {
 Site site_of(const Scenario& scenario, const ProgressConfig& config);
 
 /// Reads the file and checks its steps against the flight box.
-/// @throws ConfigError: no file is given, it is missing or refused by its reader, a step lies outside the flight box
+/// @throws ConfigError: no file is given, it is missing or refused by its reader, a step lies outside the flight box.
+///   Or a step is faster than the vehicle may fly
 Mission load_mission(const Scenario& scenario, const MissionConfig& config);
 
 }  // namespace tern::mission

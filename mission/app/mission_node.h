@@ -32,7 +32,7 @@ struct MissionSetup {
 };
 
 /// Connects Progress to the bus. Receives UAV_STATE, VEHICLE_STATUS, GOAL, SEMANTIC_MAP and PREDICTIONS; publishes
-/// GOAL.
+/// GOAL and SPEED_LIMIT.
 ///
 /// 1. It waits for a map, and refuses steps in occupied voxels. A file's mission then ends the process with
 ///    kExitCannotFly, before any goal is sent. An upload is refused, and one from before a restart is forgotten.

@@ -16,7 +16,9 @@ constexpr std::uint16_t kPauseContinue = 193, kMissionStart = 300;
 /// MAV_RESULT
 constexpr std::uint8_t kResultAccepted = 0, kResultDenied = 2, kResultUnsupported = 3;
 constexpr std::uint8_t kFrameEnu = 4, kFrameRelativeInt = 6, kFrameMission = 2;
-constexpr std::uint16_t kNavWaypoint = 16;
+constexpr std::uint16_t kNavWaypoint = 16, kDoChangeSpeed = 178;
+/// Parameters of DO_CHANGE_SPEED: the kind of speed, the vehicle's own speed, the throttle.
+constexpr float kGroundSpeed = 1.0F, kDefaultSpeed = -2.0F, kUnchanged = -1.0F;
 constexpr double kDegreesPerUnit = 1e-7, kMetresPerUnit = 1e-4;
 constexpr std::size_t kTextBytes = 50;
 constexpr std::size_t kMaxSaid = 500;
@@ -43,12 +45,24 @@ Item item_of(const MissionItemInt& wire) {
 
 std::vector<MissionItemInt> items_of(const std::vector<Step>& steps, const Site& site) {
   std::vector<MissionItemInt> items;
-  for (const Step& step : steps) {
-    if (step.action == Action::Follow) continue;
+  double speed = 0.0;
+  const auto next = [&items](std::uint16_t command) {
     MissionItemInt item;
     item.seq = static_cast<std::uint16_t>(items.size());
-    item.command = kNavWaypoint;
+    item.command = command;
     item.autocontinue = 1;
+    return item;
+  };
+  for (const Step& step : steps) {
+    if (step.action == Action::Follow) continue;
+    if (step.speed != std::exchange(speed, step.speed)) {
+      MissionItemInt change = next(kDoChangeSpeed);
+      change.frame = kFrameMission;
+      change.param = {kGroundSpeed, step.speed > 0.0 ? static_cast<float>(step.speed) : kDefaultSpeed, kUnchanged,
+                      0.0F};
+      items.push_back(change);
+    }
+    MissionItemInt item = next(kNavWaypoint);
     item.param = {static_cast<float>(step.hold_s), static_cast<float>(step.radius), 0.0F,
                   std::numeric_limits<float>::quiet_NaN()};
     if (site.frame) {
@@ -71,9 +85,12 @@ std::vector<MissionItemInt> items_of(const std::vector<Step>& steps, const Site&
 std::vector<std::uint16_t> seqs_of(const std::vector<Step>& steps) {
   std::vector<std::uint16_t> seqs;
   std::uint16_t next = 0;
+  double speed = 0.0;
   for (const Step& step : steps) {
+    const bool has_item = step.action != Action::Follow;
+    if (has_item && step.speed != std::exchange(speed, step.speed)) ++next;
     seqs.push_back(next);
-    if (step.action != Action::Follow) ++next;
+    if (has_item) ++next;
   }
   return seqs;
 }

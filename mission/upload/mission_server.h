@@ -101,8 +101,8 @@ class MissionServer {
 /// Returns an item of the wire. Coordinates of 2³¹ − 1 are not given.
 Item item_of(const mavlink::MissionItemInt& wire);
 
-/// Returns steps as items of the wire, for a download: waypoints relative to the origin; without an origin in W.
-/// Followed tracks have no item.
+/// Returns steps as items of the wire, for a download: waypoints, and changes of speed before them. Places are relative
+/// to the origin; without an origin they are in W. Followed tracks have no item.
 std::vector<mavlink::MissionItemInt> items_of(const std::vector<Step>& steps, const Site& site);
 
 /// Returns the seq of each step's item among items_of(). A followed track has that of the next item.

@@ -53,7 +53,7 @@ def campaign(scenario: str | os.PathLike[str], seeds: Sequence[int] = range(1, 1
         if not hasattr(seed, "__index__") or not 0 <= operator.index(seed) < 2**64:
             raise ValueError(f"seeds: {seed!r} is not an integer from 0 to 2^64 - 1")
     first, last = min(seeds), max(seeds)
-    if sorted(seeds) != list(range(first, last + 1)):
+    if last - first + 1 != len(seeds) or sorted(seeds) != list(range(first, last + 1)):
         raise ValueError(f"seeds: {list(seeds)} are not consecutive")
     if jobs is not None and jobs < 1:
         raise ValueError(f"jobs: {jobs}, not 1 or more")

@@ -53,7 +53,10 @@ RosInlet::RosInlet(Bus& bus, const std::set<Input>& received, const InletOptions
   if (received.contains(Input::Odometry) || received.contains(Input::PoseOdometry)) {
     vehicle_.emplace(received.contains(Input::Following), options_.mode);
   }
-  bus_.subscribe(channels::kUavState, [this](const UavState& state) { position_ = state.motion.p; });
+  bus_.subscribe(channels::kUavState, [this](const UavState& state) {
+    position_ = state.motion.p;
+    speed_ = state.motion.v.norm();
+  });
   bus_.subscribe(channels::kHorizonRequest,
                  [this](const HorizonRequest& request) { places_ = centre_box(request.flight_box, request.body); });
   bus_.subscribe(channels::kGoal,
@@ -67,6 +70,7 @@ IntakeContext RosInlet::context(UTime now) const {
   return {transforms_,
           now,
           position_,
+          speed_,
           options_.detection_sigma_m,
           options_.detection_range_m,
           options_.cloud_range_m,

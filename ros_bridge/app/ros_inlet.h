@@ -122,6 +122,7 @@ class RosInlet {
   MapFileSender map_files_;
   Box places_;                           ///< of the vehicle's position
   std::optional<Vec3> position_;         ///< the newest UAV_STATE's
+  double speed_ = 0.0;                   ///< of the same, m/s
   std::optional<UTime> other_received_;  ///< VEHICLE_STATUS of another process
   UTime next_status_;
   bool followed_ = false;

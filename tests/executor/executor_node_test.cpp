@@ -105,8 +105,9 @@ TEST_F(StandingVehicle, KeepsTheSpeedLimitOfItsGoalAlone) {
   stand(Vec3::Zero(), 0, true);
   EXPECT_EQ(v_max_, Vec3::Constant(0.5));
   limit(1, 0.1);
+  limit(7, 2.0);
   stand(Vec3::Zero(), 0, true);
-  EXPECT_EQ(v_max_, Vec3::Constant(0.5)) << "of a goal that is over";
+  EXPECT_EQ(v_max_, Vec3::Constant(0.5)) << "of a goal that is over, and of one to come";
   goal.id = 3;
   runner_.observer().publish(channels::kGoal, goal);
   stand(Vec3::Zero(), 0, true);

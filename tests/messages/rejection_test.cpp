@@ -79,7 +79,7 @@ TEST(Rejection, OfGoal) {
 
 TEST(Rejection, OfSpeedLimit) {
   EXPECT_EQ(after<SpeedLimit>([](auto& s) { s.goal_id = 0; }), "Number");
-  EXPECT_EQ(after<SpeedLimit>([](auto& s) { s.v_max.x() = 0.0; }), "Number");
+  EXPECT_EQ(after<SpeedLimit>([](auto& s) { s.v_max.x() = 0.04; }), "Number");
   EXPECT_EQ(after<SpeedLimit>([](auto& s) { s.v_max.z() = kNaN; }), "Number");
 }
 

@@ -111,7 +111,7 @@ TEST_F(Server, AcknowledgesAgainIfTheLastItemComesAgain) {
 }
 
 TEST_F(Server, NamesWhyAMissionIsRefused) {
-  refusal_ = "item 2, MAV_CMD_DO_CHANGE_SPEED (178): cannot be flown, as this vehicle flies at its limits";
+  refusal_ = "item 2, MAV_CMD_NAV_SPLINE_WAYPOINT (82): cannot be flown; convert the mission to single waypoints";
   count(1);
   const auto answers = send(waypoint(0, 47.399, 8.5456, 12.0F));
   ASSERT_EQ(answers.size(), 3u);
@@ -198,14 +198,20 @@ TEST_F(Server, PassesOrdersOn) {
 }
 
 TEST_F(Server, ADownloadedMissionIsTheOneThatIsFlown) {
-  const auto steps =
-      steps_of({item_of(waypoint(0, 47.398, 8.5456, 10.0F)), item_of(waypoint(1, 47.399, 8.5457, 12.0F))}, some_site())
-          .value();
+  auto steps = steps_of({item_of(waypoint(0, 47.398, 8.5456, 10.0F)), item_of(waypoint(1, 47.399, 8.5457, 12.0F)),
+                         item_of(waypoint(2, 47.399, 8.5458, 12.0F)), item_of(waypoint(3, 47.398, 8.5458, 12.0F))},
+                        some_site())
+                   .value();
+  steps[1].speed = steps[2].speed = 1.5;
   std::vector<Item> again;
   for (const MissionItemInt& item : items_of(steps, some_site())) again.push_back(item_of(item));
   const auto back = steps_of(again, some_site()).value();
   ASSERT_EQ(back.size(), steps.size());
-  for (std::size_t k = 0; k < steps.size(); ++k) EXPECT_LT((back[k].position - steps[k].position).norm(), 0.02);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    EXPECT_LT((back[k].position - steps[k].position).norm(), 0.02);
+    EXPECT_EQ(back[k].speed, steps[k].speed);
+  }
+  EXPECT_THAT(seqs_of(steps), ::testing::ElementsAre(0, 2, 3, 5)) << "two items change the speed";
 }
 
 TEST_F(Server, AnyFramesGetAnswersOrNone) {

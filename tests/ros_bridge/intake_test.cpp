@@ -207,6 +207,18 @@ TEST_F(Intake, RaysOfACloudBeginAtTheSensor) {
   EXPECT_EQ(sensor_position(), T_WS.p);
   EXPECT_LT((read(cloud, context)->at(0).points[0].position.cast<double>() - (Vec3(25, 0, 2) - T_WS.p)).norm(), 1e-5);
   context.cloud_sensor = "";
+  T_WS.p = *context.vehicle - Vec3(5.0, 0.0, 0.0);
+  ASSERT_TRUE(transforms.add(transform_of("map", "late_lidar", T_WS, kNow), true, kNow));
+  cloud.header.frame_id = "late_lidar";
+  cloud.header.stamp = ros::to_ros(kNow - Duration{300'000});
+  EXPECT_THAT(why_not(cloud), HasSubstr("lies 5.0 m from the vehicle"));
+  context.vehicle_speed = 8.0;
+  EXPECT_EQ(sensor_position(), T_WS.p) << "where the vehicle was 0.3 s ago";
+  cloud.header.frame_id = "odom";
+  cloud.header.stamp = ros::to_ros(kNow);
+  context.vehicle.reset();
+  EXPECT_THAT(why_not(cloud), HasSubstr("needs the vehicle's position"));
+  context.vehicle = Vec3(20.0, 0.0, 2.0);
   context.placed_world = "odom";
   EXPECT_EQ(sensor_position(), *context.vehicle);
 }
@@ -233,7 +245,7 @@ TEST_F(Intake, RefusesWhatATransformCarriesBeyondAllCoordinates) {
 }
 
 TEST_F(Intake, SplitsAndThinsLargeClouds) {
-  context.vehicle.reset();
+  context.vehicle = Vec3::Zero();
   ASSERT_TRUE(transforms.add(transform_of("map", "lidar", {}, kNow), false, kNow));
   for (const std::size_t n : {4'000U, 4'001U, 16'000U, 16'001U, 100'000U}) {
     const auto scans = read(cloud_of(std::vector<Eigen::Vector3f>(n, Eigen::Vector3f::Ones())), context);
@@ -252,7 +264,7 @@ TEST_F(Intake, SplitsAndThinsLargeClouds) {
 }
 
 TEST_F(Intake, RefusesCloudsThatDoNotFit) {
-  context.vehicle.reset();
+  context.vehicle = Vec3::Zero();
   ASSERT_TRUE(transforms.add(transform_of("map", "lidar", {}, kNow), false, kNow));
   const auto good = cloud_of(std::vector<Eigen::Vector3f>(10, Eigen::Vector3f::Ones()));
   auto cloud = good;

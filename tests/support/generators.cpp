@@ -86,7 +86,7 @@ Goal random_message(Rng& rng, Fill) {
 
 template <>
 SpeedLimit random_message(Rng& rng, Fill) {
-  const auto limit = [&rng] { return number(rng, kMinLimit, kMaxSpeedLimit); };
+  const auto limit = [&rng] { return number(rng, 0.05, kMaxSpeedLimit); };
   return {header(rng), integer(rng, 1, kMaxGoalId), {limit(), limit(), limit()}};
 }
 
