@@ -16,6 +16,7 @@
 #include "runtime/config.h"
 #include "runtime/process.h"
 #include "runtime/scenario_file.h"
+#include "runtime/timed_scenario.h"
 #include "semantic_mapper/app/load_map.h"
 #include "semantic_mapper/app/mapper_config.h"
 #include "semantic_mapper/app/mapper_node.h"
@@ -42,6 +43,7 @@ struct VirtualSystem::Parts {
   VoxelMap map;
   PlannerConfig planner;
   mission::MissionConfig mission;
+  std::string goals_from;
   std::string effective_yaml;  ///< of the whole file
 
   Parts(ConfigDocument& document, Charge charge_)
@@ -63,6 +65,7 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
   parts_ = std::make_unique<Parts>(document, charge);
   const Scenario& scenario = parts_->scenario;
   const SimulatorConfig config = read_simulator_config(document.root().section("simulator"), scenario.seed);
+  parts_->goals_from = config.goals_from;
   const bool estimates = config.vio.has_value();
   if (estimates) parts_->estimator = document.root().section("estimator").read<EstimatorNodeConfig>();
   parts_->effective_yaml = document.effective();
@@ -79,6 +82,8 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
 VirtualSystem::~VirtualSystem() = default;
 
 const Scenario& VirtualSystem::scenario() const { return parts_->scenario; }
+
+Scenario VirtualSystem::timed_scenario() const { return timed(parts_->scenario, parts_->goals_from); }
 
 void VirtualSystem::stop(const std::string& process) {
   if (process == "tern-simulator") throw std::invalid_argument("VirtualSystem: a flight is its simulator");

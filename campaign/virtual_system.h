@@ -45,6 +45,8 @@ class VirtualSystem {
   /// Returns the executor that was started last. @pre it is not stopped
   [[nodiscard]] const ExecutorNode& executor() const { return *executor_; }
   [[nodiscard]] const Scenario& scenario() const;
+  /// Returns the scenario with the flight's time limit (timed()), for a FlightWatch.
+  [[nodiscard]] Scenario timed_scenario() const;
 
  private:
   struct Parts;  ///< the inputs of the nodes

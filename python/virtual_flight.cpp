@@ -165,7 +165,7 @@ VirtualFlight::VirtualFlight(const std::string& scenario_file, const std::vector
   planner_ = static_cast<SteppedPlanner*>(&system_->runner().start(
       "tern-planner", [&](Bus& bus) { return std::make_unique<SteppedPlanner>(bus, config, configuration_hash(yaml)); },
       yaml));
-  watch_ = std::make_unique<FlightWatch>(system_->scenario(), system_->runner().now());
+  watch_ = std::make_unique<FlightWatch>(system_->timed_scenario(), system_->runner().now());
   subscribe_flight(system_->runner().observer(), *watch_);
 }
 

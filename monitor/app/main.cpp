@@ -24,6 +24,6 @@ int main(int argc, char** argv) {
       }};
   return tern::run_process(argc, argv, description,
                            [&options](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
-                             return std::make_unique<tern::MonitorNode>(context.bus, context.scenario, options);
+                             return tern::make_monitor(context, options);
                            });
 }

@@ -12,6 +12,7 @@
 #include "monitor/live_line.h"
 #include "runtime/config.h"
 #include "runtime/log.h"
+#include "runtime/timed_scenario.h"
 #include "runtime/version.h"
 
 namespace tern {
@@ -94,6 +95,11 @@ void MonitorNode::finish(const Ending& ending) {
   // The process's own log may be on the same full disk.
   output_.print(options_.summary_file + ": the summary could not be written as a whole\n");
   if (exit_code_ == 0) exit_code_ = kExitIncomplete;
+}
+
+std::unique_ptr<MonitorNode> make_monitor(ProcessContext& context, const MonitorOptions& options) {
+  const Scenario scenario = timed(context.scenario, read_goals_from(context.document));
+  return std::make_unique<MonitorNode>(context.bus, scenario, options);
 }
 
 }  // namespace tern

@@ -1,6 +1,7 @@
 // tern-monitor: shows a flight, judges its end and writes its summary.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "runtime/batches.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
+#include "runtime/process.h"
 
 namespace tern {
 
@@ -48,5 +50,8 @@ class MonitorNode final : public Node {
   UTime next_look_, next_line_;
   std::optional<int> exit_code_;
 };
+
+/// Makes the node with the flight's time limit (timed()). @throws ConfigError as the constructor
+std::unique_ptr<MonitorNode> make_monitor(ProcessContext& context, const MonitorOptions& options);
 
 }  // namespace tern

@@ -12,6 +12,7 @@
 #include "messages/codec.h"
 #include "runtime/log.h"
 #include "runtime/tick.h"
+#include "runtime/timed_scenario.h"
 #include "simulator/vehicle/external_vehicle.h"
 
 namespace tern {
@@ -49,25 +50,18 @@ Goal held(Goal goal) {
   return goal;
 }
 
-/// The process that sends the goals limits the time of each of them.
-Scenario timed(Scenario scenario, const SimulatorConfig& config) {
-  constexpr double kNoTimeoutS = 1e6;
-  if (!config.goals_from.empty() && !scenario.timeout_s) scenario.timeout_s = kNoTimeoutS;
-  return scenario;
-}
-
 }  // namespace
 
 SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, std::unique_ptr<Vehicle> vehicle,
                              const SimulatorConfig& config)
     : bus_(bus),
       config_(config),
-      timeout_s_(flight_timeout_s(timed(scenario, config))),
+      timeout_s_(flight_timeout_s(timed(scenario, config.goals_from))),
       gate_(config.wait_for, bus.epoch_us(), config.max_clock_skew),
       begun_(bus.clock().now()),
       give_up_at_(begun_ + config.wait),
       vehicle_(std::move(vehicle)),
-      referee_(timed(scenario, config), std::move(world), vehicle_->judged_limits()),
+      referee_(timed(scenario, config.goals_from), std::move(world), vehicle_->judged_limits()),
       broadcast_(bus, referee_.world(), config, bus.clock().now()),
       sensors_(bus, config, bus.clock().now()),
       last_step_(bus.clock().now()),

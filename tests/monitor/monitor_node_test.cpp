@@ -10,6 +10,7 @@
 #include "core/world/names.h"
 #include "messages/codec.h"
 #include "runtime/config.h"
+#include "runtime/scenario_file.h"
 #include "runtime/virtual_runner.h"
 
 namespace tern {
@@ -92,6 +93,39 @@ TEST(Monitor, FailsWhenTheLauncherGivesUp) {
   EXPECT_EQ(result.end, RunEnd::Finished);
   EXPECT_EQ(result.exit_code, 3);
   std::filesystem::remove(options.failure_file);
+}
+
+/// Returns how a monitor ends in ten minutes of a flight without a verdict.
+RunEnd watch_ten_minutes(const std::string& yaml) {
+  ConfigDocument document = ConfigDocument::parse(yaml, "test.yaml");
+  const Scenario scenario = read_scenario(document);
+  VirtualRunner runner;
+  runner.start("tern-monitor", [&](Bus& bus) {
+    ProcessContext context{scenario, document.root(), bus, document};
+    return make_monitor(context, {});
+  });
+  HorizonRequest request;
+  request.id = 1;
+  request.t_s = request.committed.start = runner.now() + Duration{75'000};
+  request.deadline = request.t_s - kDeadlineLead;
+  request.committed.control_points = scenario.uav.start.replicate(1, 7);
+  request.start = request.committed.sample(request.t_s);
+  request.flight_box = scenario.uav.flight_box;
+  runner.observer().publish(channels::kHorizonRequest, request);
+  Heartbeat simulator;
+  simulator.process = kSimulatorProcess;
+  simulator.state = ProcessState::Ready;
+  for (int s = 0; s < 600; ++s) {
+    runner.observer().publish(channels::kHeartbeat, simulator);
+    if (runner.run(runner.now() + Duration{1'000'000}).end == RunEnd::Finished) return RunEnd::Finished;
+  }
+  return RunEnd::Time;
+}
+
+TEST(Monitor, AMissionHasTheTimeLimitThatItsScenarioStatesOrNone) {
+  EXPECT_EQ(watch_ten_minutes("simulator: {send_goal: true}"), RunEnd::Finished);
+  EXPECT_EQ(watch_ten_minutes("simulator: {goals_from: tern-mission}"), RunEnd::Time);
+  EXPECT_EQ(watch_ten_minutes("{timeout_s: 30, simulator: {goals_from: tern-mission}}"), RunEnd::Finished);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "monitor/app/subscribe_flight.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
+#include "runtime/timed_scenario.h"
 
 namespace tern::audit {
 namespace {
@@ -39,6 +40,16 @@ std::optional<double> summary_flight_s(const std::string& log) {
   return recorded == fs::path(log).filename() || fs::is_directory(log)
              ? std::optional(summary["flight_time_s"].get<double>())
              : std::nullopt;
+}
+
+/// Returns the process that sent the goals, by a configuration; empty: the simulator.
+/// @throws ConfigError for a configuration that cannot be read
+std::string goals_from(const FlightRecord& record) {
+  for (const ConfigurationReport& report : record.configurations) {
+    ConfigDocument document = ConfigDocument::parse(report.yaml, report.process);
+    if (const std::string process = read_goals_from(document); !process.empty()) return process;
+  }
+  return "";
 }
 
 /// Explains the flight's end as tern-monitor did, by the same messages.
@@ -78,7 +89,7 @@ Result<FlightRecord> load_flight(const std::string& path) {
       record->regions = semantics.regions;
       record->class_labels.insert(semantics.classes.begin(), semantics.classes.end());
       record->obstacle_names = obstacle_names(report.yaml);
-      record->why = why(*record, scenario);
+      record->why = why(*record, timed(scenario, goals_from(*record)));
       break;
     } catch (const ConfigError&) {
       // It is no scenario, or one of another version; the next process's may be readable.
