@@ -53,6 +53,7 @@ void FlightWatch::receive(const HorizonRequest& request, UTime now) {
   ledger_.add(request);
   note(request);
   const bool is_executors = request.header.name.sender_epoch_us == processes_.epoch_us(kExecutorProcess);
+  recording_.begin();
   if (world_epoch_us_ != 0 || (first_request_ && !is_executors)) return;
   first_request_ = request;
   first_request_at_ = now;

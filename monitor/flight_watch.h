@@ -72,6 +72,7 @@ struct Ending {
 /// next heartbeat shows that it still flies.
 class FlightWatch {
  public:
+  /// @param scenario  with the flight's time limit (runtime/timed_scenario.h)
   /// @param now  the watcher's clock, as in all functions here; the vehicle's clock is named where it is meant
   FlightWatch(const Scenario& scenario, UTime now);
 

@@ -33,8 +33,12 @@ LoggerConfig read_logger_config(ConfigSection section) {
   return config;
 }
 
-LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path)
-    : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), bus_(bus), next_flush_(bus.clock().now()) {
+LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path, bool* is_whole)
+    : writer_(open_writer(path, config.rotate_bytes)),
+      table_(bus.suffix()),
+      bus_(bus),
+      is_whole_(is_whole),
+      next_flush_(bus.clock().now()) {
   log::info("writing {}", writer_.part_path());
   bus.listen([this](std::string_view channel, std::int64_t system_us, std::span<const std::uint8_t> data) {
     // By the flight's clock, like all times in its messages.
@@ -59,6 +63,7 @@ LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& 
 LoggerNode::~LoggerNode() {
   flush();
   report();
+  if (is_whole_ != nullptr) *is_whole_ = trouble_.empty();
 }
 
 void LoggerNode::step(UTime now) {

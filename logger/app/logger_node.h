@@ -14,6 +14,8 @@
 
 namespace tern {
 
+/// Exit code of tern-logger if messages are missing in its log.
+inline constexpr int kExitMessagesMissing = 5;
 /// Time between flushes: a kill loses the messages of at most this time.
 inline constexpr Duration kFlushPeriod{100'000};
 
@@ -39,8 +41,9 @@ LoggerConfig read_logger_config(ConfigSection section);
 class LoggerNode final : public Node {
  public:
   /// @param path  of the log; for an existing folder, flight.lcm in it
+  /// @param is_whole  the destructor writes there whether the log holds every message; null: nowhere
   /// @throws ConfigError if the log cannot be made.
-  LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path);
+  LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path, bool* is_whole = nullptr);
   /// Flushes, and prints a line per channel.
   ~LoggerNode() override;
   LoggerNode(const LoggerNode&) = delete;
@@ -69,6 +72,7 @@ class LoggerNode final : public Node {
   Bus& bus_;
   std::map<std::string, Start> starts_;    ///< by process name
   std::set<std::int64_t> configurations_;  ///< epochs of the senders whose CONFIGURATION arrived
+  bool* is_whole_;
   UTime next_flush_;
   std::int64_t too_large_ = 0;
   std::string trouble_;  ///< why messages are not in the log, or why the last flush failed; empty: neither

@@ -26,9 +26,13 @@ int main(int argc, char** argv) {
             app.add_option("--listens-fd", listens_fd, "Write a byte to this descriptor when recording has begun");
           },
       .read_section = tern::read_logger_config};
-  return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
-    auto node = std::make_unique<tern::LoggerNode>(context.bus, tern::read_logger_config(context.section), path);
+  bool is_whole = true;
+  const auto make_node = [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+    const tern::LoggerConfig config = tern::read_logger_config(context.section);
+    auto node = std::make_unique<tern::LoggerNode>(context.bus, config, path, &is_whole);
     if (listens_fd) (void)!write(*listens_fd, "!", 1);
     return node;
-  });
+  };
+  const int code = tern::run_process(argc, argv, description, make_node);
+  return code == 0 && !is_whole ? tern::kExitMessagesMissing : code;
 }

@@ -140,6 +140,30 @@ TEST(Logger, SaysAtOnceAndForGoodThatAFullDiskLostMessages) {
   EXPECT_EQ(heard.back().state, ProcessState::Failed) << "the recording stays incomplete";
 }
 
+TEST(Logger, TellsAtItsEndThatItsLastFlushFailed) {
+  const TempFolder folder;
+  VirtualRunner runner;
+  bool is_whole = true;
+  runner.start("tern-logger", [&](Bus& bus) {
+    return std::make_unique<LoggerNode>(bus, LoggerConfig{}, folder.file("a.lcm"), &is_whole);
+  });
+  runner.run(runner.now() + Duration{1'000'000});
+  Goal goal;
+  goal.id = 1;
+  runner.observer().publish(channels::kGoal, goal);
+  runner.run(runner.now() + Duration{1'000});
+  {
+    const FullDisk disk(100);
+    runner.stop("tern-logger");
+  }
+  EXPECT_FALSE(is_whole);
+  runner.start("tern-logger", [&](Bus& bus) {
+    return std::make_unique<LoggerNode>(bus, LoggerConfig{}, folder.file("b.lcm"), &is_whole);
+  });
+  runner.stop("tern-logger");
+  EXPECT_TRUE(is_whole);
+}
+
 /// Fragments can make a message of 256 MB, which LCM hands over.
 TEST(Logger, LeavesOutWhatNoReaderTakesAndTheLogStaysWhole) {
   const TempFolder folder;

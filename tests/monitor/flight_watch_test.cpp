@@ -321,6 +321,26 @@ TEST(FlightWatch, ARecordingByALoggerThatDiedOrWasAwayIsIncomplete) {
   EXPECT_EQ(restarted.summary({}).recording, "") << "four heartbeats may be lost";
 }
 
+TEST(FlightWatch, ARecordingByALoggerThatAnotherOneFollowsInFlightIsIncomplete) {
+  const auto successor = [](double seconds) {
+    Heartbeat heartbeat = logger(seconds);
+    heartbeat.header.name.sender_epoch_us = 100;
+    return heartbeat;
+  };
+  FlightWatch before(scenario(), kStart), followed(scenario(), kStart), beside(scenario(), kStart);
+  for (FlightWatch* watch : {&before, &followed, &beside}) watch->receive(logger(0.0), kStart);
+  before.receive(successor(0.4), kStart);
+  for (FlightWatch* watch : {&before, &followed, &beside}) {
+    watch->receive(request(), kStart);
+    watch->receive(successor(1.0), kStart);
+  }
+  beside.receive(logger(1.1), kStart);
+  for (FlightWatch* watch : {&before, &followed, &beside}) watch->receive(successor(1.5), kStart);
+  EXPECT_EQ(before.summary({}).recording, "") << "no flight begins before the logger has all it needs";
+  EXPECT_EQ(followed.summary({}).recording, "tern-logger restarted during the flight");
+  EXPECT_EQ(beside.summary({}).recording, "");
+}
+
 TEST(FlightWatch, WhatComesAfterTheVerdictExplainsNothing) {
   FlightWatch watch(scenario(), kStart);
   watch.receive(simulator(5), kStart);
