@@ -1,7 +1,6 @@
 #include "launcher/app/flight.h"
 
 #include <fcntl.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -19,6 +18,7 @@
 #include <utility>
 
 #include "core/base/files.h"
+#include "launcher/app/flight_folder.h"
 #include "launcher/app/supervisor.h"
 #include "launcher/rules.h"
 #include "monitor/flight_summary.h"
@@ -35,6 +35,11 @@ template <class... T>
 void say(fmt::format_string<T...> format, T&&... values) {
   fmt::print("{}\n", fmt::format(format, std::forward<T>(values)...));
   std::fflush(stdout);
+}
+
+template <class... T>
+void warn(fmt::format_string<T...> format, T&&... values) {
+  fmt::print(stderr, "tern-launch: {}\n", fmt::format(format, std::forward<T>(values)...));
 }
 
 std::string without_end(std::string text) {
@@ -66,41 +71,25 @@ void write_failure(const LaunchOptions& options, const std::string& reason, cons
   summary.count = overridden(options, "world.count");
   summary.command = options.command;
   summary.version = build_id();
-  std::ofstream(file) << to_json(summary);
+  if (!write_text(file, to_json(summary))) warn("{}: the summary cannot be written", file.string());
 }
 
-/// The scenario's seed, for the folder's name; 1 if it cannot be read.
-std::uint64_t seed_of(const LaunchOptions& options) try {
-  ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
-  return read_scenario(document).seed;
-} catch (const ConfigError&) {
-  return 1;
-}
-
-/// Creates the flight's folder. @return its path
-Result<fs::path> make_record(const LaunchOptions& options) {
-  fs::path folder = options.record;
-  if (folder.empty()) {
-    const auto now = fmt::gmtime(std::time(nullptr));
-    const std::string name = fs::path(options.scenario).stem();
-    folder = fs::path(options.flights) / fmt::format("{:%Y%m%dT%H%M%SZ}-{}-{}", now, name, seed_of(options));
-  }
+/// Checks before the flight that the summary can be written after it. @throws std::runtime_error
+void check_summary_file(const fs::path& file) {
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return fail(fmt::format("{} cannot be made: {}", folder.string(), error.message()));
-  if (fs::exists(folder / "command"))
-    return fail(fmt::format("{} already holds a flight; choose another folder", folder.string()));
-  for (const char* left : {"failure", "summary.json"}) fs::remove(folder / left);  // of a flight that could not begin
-  return fs::canonical(folder);
+  if (file.empty()) return;
+  const bool was_there = fs::exists(file, error);
+  if (!std::ofstream(file, std::ios::app)) throw std::runtime_error(file.string() + ": the summary cannot be written");
+  if (!was_there) fs::remove(file, error);
 }
 
 /// Reports once why the flight has failed, on stderr and to the monitor.
 int give_up(const fs::path& record, const std::string& why) {
   const fs::path file = record / "failure", fresh = record / "failure.new";
-  if (fs::exists(file)) return kExitFailed;
-  fmt::print(stderr, "tern-launch: {}\n", why);
-  std::ofstream(fresh) << why << '\n';
-  fs::rename(fresh, file);  // so that the file is complete as soon as it exists
+  std::error_code error;
+  if (fs::exists(file, error)) return kExitFailed;
+  warn("{}", why);
+  if (write_text(fresh, why + '\n')) fs::rename(fresh, file, error);  // the file is complete as soon as it exists
   return kExitFailed;
 }
 
@@ -146,6 +135,13 @@ std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event)
     give_up(record, fmt::format("{} ended with exit code {}: {}", event.process, event.code, words));
   }
   return is_monitor ? std::optional(code_after_flight(event.code, has_summary)) : std::nullopt;
+}
+
+/// @return the flight's exit code, with the logger's end
+int code_after_logger(int code, const ProcessEnd& logger) {
+  if (shell_code(logger) == 0) return code;
+  warn("{} ended with {}: the recording may lack its last messages", kLogger, to_text(logger));
+  return code == 0 ? kExitIncomplete : code;
 }
 
 /// Longest wait for the logger, s. After it the flight begins anyway.
@@ -226,8 +222,7 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
   std::optional<int> code;
   while (!code) code = verdict(record, supervisor.wait());
   supervisor.end_first(kMavlink, options.pace);
-  supervisor.stop(kLogger);
-  return *code;
+  return code_after_logger(*code, supervisor.stop(kLogger));
 } catch (const std::exception& e) {
   return give_up(record, e.what());
 }
@@ -318,30 +313,46 @@ void keep_playing(pid_t player, const std::string& url) {
   (void)await_or_end(player);
 }
 
+/// Writes the summary of a flight that failed, and copies the summary to where it is requested.
+/// @return the flight's exit code, with the copy's fate
+int summarize(const LaunchOptions& options, const fs::path& record, int code) {
+  const fs::path summary = record / "summary.json";
+  std::error_code error;
+  if (code == kExitFailed && !fs::exists(summary, error)) {
+    const std::string why = last_line(read_text(record / "failure"));
+    const std::string reason = why.empty() ? record.string() + ": the reason could not be written" : why;
+    write_failure(options, reason, summary);
+    summarize_failure(options, reason);
+    return code;
+  }
+  if (options.summary.empty() || !fs::exists(summary, error)) return code;
+  fs::copy_file(summary, options.summary, fs::copy_options::overwrite_existing, error);
+  if (!error) return code;
+  warn("{}: the summary cannot be written: {}", options.summary, error.message());
+  return code == 0 ? kExitIncomplete : code;
+}
+
 }  // namespace
 
 // A flight that never began leaves a folder only if --record names it.
 int fly(const LaunchOptions& options) {
-  const auto record = make_record(options);
+  check_summary_file(options.summary);
+  const auto record = make_flight_folder(options);
   if (!record) {
     summarize_failure(options, record.error().message);
     throw std::runtime_error(record.error().message);
   }
   int code = watch_over(options, *record);
+  std::error_code error;
+  fs::remove(*record / "namespace", error);
   const bool is_played = options.view_fd && code < kExitSignalled && fs::exists(*record / "flight.lcm");
   const pid_t player = is_played ? play_again(options, *record) : 0;
   report_mission(options, *record);
   const bool is_over = code < kExitSignalled || (options.allow_goals && code > kExitSignalled);
   if (is_over && fs::exists(*record / "flight.lcm")) code = after_flight(options, *record, code);
   if (code > kExitSignalled) say("\nEnded by a signal; the record is in {}", record->string());
-  const fs::path summary = *record / "summary.json";
-  if (code == kExitFailed && !fs::exists(summary)) {
-    write_failure(options, last_line(read_text(*record / "failure")), summary);
-  }
-  if (!options.summary.empty() && fs::exists(summary)) {
-    fs::copy_file(summary, options.summary, fs::copy_options::overwrite_existing);
-  }
-  if (code == kExitFailed && options.record.empty() && !fs::exists(*record / "command")) fs::remove_all(*record);
+  code = summarize(options, *record, code);
+  if (code == kExitFailed && options.record.empty() && !fs::exists(*record / "command")) fs::remove_all(*record, error);
   if (is_played) {
     keep_playing(player, options.view_url);
     say("See it again: launch_scripts/view.sh --log {}/flight.lcm", record->string());

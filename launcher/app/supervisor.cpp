@@ -33,6 +33,12 @@ bool lands_a_vehicle(const std::vector<std::string>& command) {
   });
 }
 
+/// Whether a bridge has ended that had begun, and did not disarm the vehicle. A first start that ends with a permanent
+/// mistake sent no message.
+bool may_leave_it_armed(const ProcessEnd& end, int restarts) {
+  return shell_code(end) != 0 && (restarts > 0 || !is_permanent(end));
+}
+
 /// The pace in TERN_PACE, which the command also uses.
 double pace_of_environment() {
   const char* const text = std::getenv("TERN_PACE");
@@ -86,6 +92,7 @@ SupervisorEvent Supervisor::wait() {
     for (Supervised& entry : supervised_) {
       if (const auto end = entry.pid ? poll_child(*entry.pid) : std::nullopt) {
         entry.pid.reset();
+        entry.end = *end;
         if (!entry.process.restarted || is_permanent(*end)) return {entry.process.name, shell_code(*end)};
         plan_restart(entry, *end);
       }
@@ -109,7 +116,15 @@ void Supervisor::end_first(const std::string& name, double pace) {
   for (Supervised& entry : supervised_) {
     if (entry.process.name == name) named.push_back(&entry);
   }
-  if (have_ended(named)) return;
+  if (!have_ended(named)) await_landing(named, name, pace);
+  for (const Supervised* entry : named) {
+    if (!may_leave_it_armed(entry->end, entry->restarts)) continue;
+    fmt::print(stderr, "tern-launch: {} ended with {}: THE VEHICLE MAY STILL BE ARMED AND IN THE AIR; see its log\n",
+               name, to_text(entry->end));
+  }
+}
+
+void Supervisor::await_landing(const std::vector<Supervised*>& named, const std::string& name, double pace) {
   signal_all(named, SIGTERM);
   const UTime begun = clock_.now();
   UTime deadline = begun + Duration::from_seconds(kArmedPatience.seconds() / pace);
@@ -130,18 +145,14 @@ void Supervisor::end_first(const std::string& name, double pace) {
     }
   }
   end(named, kPatience);
-  for (const Supervised* entry : named) {
-    if (shell_code(entry->end) == 0) continue;
-    fmt::print(stderr, "tern-launch: {} ended with {}: THE VEHICLE MAY STILL BE ARMED AND IN THE AIR; see its log\n",
-               name, to_text(entry->end));
-  }
 }
 
-void Supervisor::stop(const std::string& last) {
+ProcessEnd Supervisor::stop(const std::string& last) {
   std::vector<Supervised*> others, last_group;
   for (Supervised& entry : supervised_) (entry.process.name == last ? last_group : others).push_back(&entry);
   end(others, kPatience);
   end(last_group, kLastPatience);
+  return last_group.empty() ? ProcessEnd{} : last_group.back()->end;
 }
 
 bool Supervisor::have_ended(const std::vector<Supervised*>& group) {

@@ -36,12 +36,14 @@ class Supervisor {
   SupervisorEvent wait();
   /// Ends tern-mavlink before the others, if it runs. It gets SIGTERM, and goes on until the vehicle is disarmed: it
   /// lands the vehicle, or serves the pilot who flies it. After 2 s this wait is reported on standard error. Then a
-  /// further signal ends it at once, and so does the end of kArmedPatience. A vehicle that may be armed is reported.
+  /// further signal ends it at once, and so does the end of kArmedPatience. A vehicle that may be armed is reported,
+  /// also if the bridge has crashed and waits for its restart: it is not started again.
   /// @param name  the bridge's process  @param pace  seconds of flight per second of the system's clock
   void end_first(const std::string& name, double pace);
   /// Ends all processes: SIGTERM to all except `last`, then SIGKILL to those left after 1 s. Then the same for `last`,
   /// which records the last messages and gets 5 s. Signals that arrive meanwhile stay pending.
-  void stop(const std::string& last);
+  /// @return how `last` ended; exit code 0 if it was never started
+  ProcessEnd stop(const std::string& last);
 
  private:
   /// A process and its restarts.
@@ -58,6 +60,7 @@ class Supervisor {
   void plan_restart(Supervised& entry, const ProcessEnd& end);
   static bool have_ended(const std::vector<Supervised*>& group);
   static void signal_all(const std::vector<Supervised*>& group, int signal);
+  void await_landing(const std::vector<Supervised*>& named, const std::string& name, double pace);
   void end(const std::vector<Supervised*>& group, Duration patience);
 
   sigset_t signals_;
