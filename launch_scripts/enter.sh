@@ -7,9 +7,10 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 help_if_asked "$@"
 
-# running RECORD_DIR: whether its flight runs in a namespace; sets pid and flags.
+# running RECORD_DIR: whether its flight runs in a namespace; sets pid and flags. A killed flight leaves its file, and its pid may
+# be another process's.
 running() {
-  [[ -r $1/namespace ]] && read -r pid flags <"$1/namespace" && [[ -e /proc/$pid/ns/net ]]
+  [[ -r $1/namespace ]] && read -r pid flags <"$1/namespace" && [[ $(readlink "/proc/$pid/exe") == */tern-launch* ]]
 }
 
 record=''

@@ -172,8 +172,15 @@ choose_network() {
   : "${url:=udpm://$LCM_GROUP:$port?ttl=0}"
 }
 
-# open_page URL: opens it in the user's browser if there is a display. The browser is not a child of this script.
+# open_page URL: opens it in the user's browser if there is a display. The browser is not a child of this script, and gets none
+# of its descriptors: it may outlive the flight, which holds its port and the page's socket by them.
 open_page() {
   [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] && command -v xdg-open >/dev/null || return 0
-  (setsid xdg-open "$1" </dev/null >/dev/null 2>&1 &)
+  (
+    for fd in /proc/"$BASHPID"/fd/*; do
+      fd=${fd##*/}
+      ((fd <= 2)) || exec {fd}>&-
+    done
+    setsid xdg-open "$1" </dev/null >/dev/null 2>&1 &
+  )
 }

@@ -11,9 +11,11 @@ case " $* " in *" --help "* | *" --version "*) exec_process tern-viewer "$@" ;; 
 case " $* " in *" --export"[\ =]* | *" --video"[\ =]*) exec_process tern-viewer --page "$TERN_PAGE" "$@" ;; esac
 url_pipe=$(mktemp -u)
 mkfifo "$url_pipe"
+# Ends with tern-viewer, which becomes this process.
 {
-  read -rt 120 url <>"$url_pipe" || true
+  exec {pipe}<>"$url_pipe"
+  until read -rt 1 -u "$pipe" url || ! kill -0 $$; do :; done
   rm "$url_pipe"
   [[ -z $url ]] || open_page "$url"
-} &
+} </dev/null >/dev/null 2>&1 &
 exec_process tern-viewer --page "$TERN_PAGE" --url-file "$url_pipe" "$@"

@@ -267,6 +267,7 @@ an_isolated_flight_can_be_entered() {
   [[ $("$scripts/enter.sh" "$work/flight" -- sh -c 'echo $LCM_DEFAULT_URL') == udpm://* ]] || fail "no LCM_DEFAULT_URL"
   end_flight "$flight"
   nobody_left || fail "left: $(pgrep -af "$work/")"
+  [[ ! -e $work/flight/namespace ]] || fail "its namespace is still named"
   [[ $(code "$scripts/enter.sh" "$work/flight") == 3 ]] || fail "entered a flight that has ended"
 }
 
