@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/world/box_cover.h"
@@ -13,14 +12,6 @@
 #include "runtime/log.h"
 
 namespace tern {
-namespace {
-
-/// The angle between two orientations, rad. @param a, b  unit quaternions
-double angle_between(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
-  return 2.0 * std::acos(std::min(1.0, std::abs(a.dot(b))));
-}
-
-}  // namespace
 
 DetectorNode::DetectorNode(Bus& bus, const DetectorConfig& config) : bus_(bus), config_(config) {
   bus_.subscribe(channels::kDepthImage, [this](const DepthImage& part) {
@@ -50,34 +41,30 @@ void DetectorNode::step(UTime now) {
   if (std::exchange(left_out_, left_out) != left_out) left_out_at_ = now;
 }
 
-/// A camera's noise changes every image. An image without noise stays the same only where the camera stays.
-bool DetectorNode::is_frozen(const std::vector<DepthImage>& parts) {
-  std::vector<std::int16_t> depths;
-  for (const DepthImage& part : parts) depths.insert(depths.end(), part.depths.begin(), part.depths.end());
-  const DepthImage& first = parts.front();
-  Seen& seen = seen_[first.sensor_id];
-  if (seen.depths != depths) {
-    seen = {std::move(depths), first.sensor_position, first.q_WC};
-    return false;
-  }
-  return (first.sensor_position - seen.position).norm() > kFrozenMoved ||
-         angle_between(first.q_WC, seen.q_WC) > kFrozenTurned;
+template <class M>
+bool DetectorNode::is_frozen(const std::vector<M>& parts) {
+  MeasuredDepths measured;
+  for (const M& part : parts) measured.add(part);
+  const std::int32_t sensor = parts.front().sensor_id;
+  if (!frozen_.is_frozen(sensor, std::move(measured))) return false;
+  note(fmt::format("sensor {} is frozen: the same depths from another place", sensor));
+  return true;
 }
 
 void DetectorNode::detect(const ScanParts<DepthImage>::Whole& image) {
   const DepthImage& first = image.parts.front();
   last_scan_ = bus_.clock().now();
   const Result<DepthPicture> picture = picture_of(image.parts, image.rows, config_.noise, config_.least_range_m);
-  if (picture && is_frozen(image.parts)) {
-    return note(fmt::format("sensor {} is frozen: the same depths from another place", first.sensor_id));
-  }
+  if (picture && is_frozen(image.parts)) return;
   publish(picture, first.at, first.sensor_id);
 }
 
 void DetectorNode::detect(const ScanParts<CloudScan>::Whole& cloud) {
   const CloudScan& first = cloud.parts.front();
   last_scan_ = bus_.clock().now();
-  publish(picture_of(cloud.parts, config_.noise, config_.least_range_m), first.at, first.sensor_id);
+  const Result<DepthPicture> picture = picture_of(cloud.parts, config_.noise, config_.least_range_m);
+  if (picture && is_frozen(cloud.parts)) return;
+  publish(picture, first.at, first.sensor_id);
 }
 
 void DetectorNode::publish(const Result<DepthPicture>& picture, UTime at, std::int32_t sensor) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "core/world/voxel_map.h"
 #include "detector/scan_parts.h"
 #include "perception/detector.h"
+#include "perception/frozen_check.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 
@@ -42,7 +42,7 @@ struct DetectorConfig {
 /// | input                                                       | effect                                            |
 /// |-------------------------------------------------------------|---------------------------------------------------|
 /// | an image without a measured depth, or with parts of another | not used; HEARTBEAT names sensor and reason       |
-/// | depths that are the same, from another place (kFrozenMoved) | not used; HEARTBEAT names the frozen sensor       |
+/// | the same depths from another place (FrozenCheck)            | not used; HEARTBEAT names the frozen sensor       |
 /// | images faster than they are handled                         | the newest of each sensor is used, others counted |
 /// | no scan for kSilence                                        | HEARTBEAT is WAITING                              |
 ///
@@ -53,8 +53,6 @@ class DetectorNode final : public Node {
   static constexpr Duration kSilence{2'000'000};
   /// A trouble is named for this long after it happened last.
   static constexpr Duration kTroubleShown{5'000'000};
-  /// An unchanged image counts as frozen if the sensor has moved by more than this, m, or turned by more, rad.
-  static constexpr double kFrozenMoved = 0.2, kFrozenTurned = 0.05;
 
   DetectorNode(Bus& bus, const DetectorConfig& config);
 
@@ -63,17 +61,12 @@ class DetectorNode final : public Node {
   [[nodiscard]] NodeHealth health() const override;
 
  private:
-  /// The newest depths of a sensor that differ from those before, and the sensor's pose then.
-  struct Seen {
-    std::vector<std::int16_t> depths;
-    Vec3 position = Vec3::Zero();
-    Eigen::Vector4d q_WC{1, 0, 0, 0};
-  };
   void on_map(const MapChunk& chunk);
   void detect(const ScanParts<DepthImage>::Whole& image);
   void detect(const ScanParts<CloudScan>::Whole& cloud);
   void publish(const Result<DepthPicture>& picture, UTime at, std::int32_t sensor);
-  [[nodiscard]] bool is_frozen(const std::vector<DepthImage>& parts);
+  template <class M>
+  [[nodiscard]] bool is_frozen(const std::vector<M>& parts);
   void note(std::string trouble);
 
   Bus& bus_;
@@ -83,7 +76,7 @@ class DetectorNode final : public Node {
   MapAssembler map_;
   std::vector<Box> occupied_;
   Detector detector_;
-  std::map<std::int32_t, Seen> seen_;
+  FrozenCheck frozen_;
   std::optional<UTime> last_scan_, trouble_at_, left_out_at_;
   std::int64_t left_out_ = 0;
   std::string trouble_;

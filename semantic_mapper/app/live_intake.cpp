@@ -1,8 +1,12 @@
 #include "semantic_mapper/app/live_intake.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
+
+#include "runtime/log.h"
 
 namespace tern {
 
@@ -35,50 +39,78 @@ Scan scan_of(const CloudScan& cloud) {
 }
 
 LiveIntake::LiveIntake(Bus& bus) : bus_(bus) {
-  bus.subscribe(channels::kPointCloud,
-                [this](const CloudScan& cloud) { receive(cloud.sensor_id, cloud.at, scan_of(cloud)); });
-  bus.subscribe(channels::kDepthImage,
-                [this](const DepthImage& image) { receive(image.sensor_id, image.at, scan_of(image)); });
+  bus.subscribe(channels::kPointCloud, [this](const CloudScan& cloud) { receive(channels::kPointCloud.name, cloud); });
+  bus.subscribe(channels::kDepthImage, [this](const DepthImage& image) { receive(channels::kDepthImage.name, image); });
 }
 
-void LiveIntake::receive(std::int32_t sensor, UTime at, Scan part) {
-  const auto pending = pending_.find(sensor);
-  if (pending == pending_.end() && pending_.size() == kMaxSensors) {
-    complete_.push_back(std::move(part));
-    return;
-  }
+template <class M>
+void LiveIntake::receive(const std::string& channel, const M& part) {
   const UTime now = bus_.clock().now();
-  if (pending == pending_.end()) {
-    pending_.emplace(sensor, Pending{at, now, std::move(part)});
-    return;
+  const std::int32_t sensor = part.sensor_id;
+  if (now - part.at > kOldestScan) {
+    return note(fmt::format("sensor {}: its {} is {:.0f} s old when it comes, not used; check its clock", sensor,
+                            channel, (now - part.at).seconds()));
   }
-  Pending& scan = pending->second;
-  const bool is_part = scan.at == at && scan.scan.sensor == part.sensor && scan.scan.range == part.range &&
-                       scan.scan.has_classes == part.has_classes &&
-                       scan.scan.points.size() + part.points.size() <= kMaxScanPoints;
-  if (is_part) {
-    scan.scan.points.insert(scan.scan.points.end(), part.points.begin(), part.points.end());
-    scan.received = now;
-  } else {
-    complete_.push_back(std::exchange(scan, Pending{at, now, std::move(part)}).scan);
+  Pending given{part.at, now, scan_of(part), {}};
+  given.measured.add(part);
+  const auto waiting = pending_.find(sensor);
+  if (waiting == pending_.end() && pending_.size() == kMaxSensors) return finish(sensor, std::move(given));
+  if (waiting == pending_.end()) return void(pending_.emplace(sensor, std::move(given)));
+  Pending& before = waiting->second;
+  const bool is_part = before.at == given.at && before.scan.sensor == given.scan.sensor &&
+                       before.scan.range == given.scan.range && before.scan.has_classes == given.scan.has_classes &&
+                       before.scan.points.size() + given.scan.points.size() <= kMaxScanPoints;
+  if (!is_part) return finish(sensor, std::exchange(before, std::move(given)));
+  before.scan.points.insert(before.scan.points.end(), given.scan.points.begin(), given.scan.points.end());
+  before.measured.add(part);
+  before.received = now;
+}
+
+void LiveIntake::finish(std::int32_t sensor, Pending pending) {
+  if (frozen_.is_frozen(sensor, std::move(pending.measured))) {
+    return note(fmt::format("sensor {} is frozen: the same depths from another place, not used", sensor));
   }
+  complete_.push_back({sensor, std::move(pending.scan)});
+}
+
+void LiveIntake::note(std::string trouble) {
+  if (this->trouble().empty()) log::warn("{}", trouble);
+  trouble_ = std::move(trouble);
+  trouble_at_ = bus_.clock().now();
+}
+
+std::string LiveIntake::trouble() const {
+  return trouble_at_ && bus_.clock().now() - *trouble_at_ < kScanTrouble ? trouble_ : "";
 }
 
 int LiveIntake::add_to(LiveMap& map, UTime now) {
-  std::erase_if(pending_, [&](auto& entry) {
-    if (now - entry.second.received < kScanParts) return false;
-    complete_.push_back(std::move(entry.second.scan));
-    return true;
-  });
-  const std::vector<Scan> scans = std::exchange(complete_, {});
+  for (auto entry = pending_.begin(); entry != pending_.end();) {
+    if (now - entry->second.received < kScanParts) {
+      ++entry;
+      continue;
+    }
+    finish(entry->first, std::move(entry->second));
+    entry = pending_.erase(entry);
+  }
+  const std::vector<Complete> scans = std::exchange(complete_, {});
   auto first = scans.end();
   for (std::size_t points = 0; first != scans.begin(); --first) {
-    points += std::prev(first)->points.size();
+    points += std::prev(first)->scan.points.size();
     if (first != scans.end() && points > kMaxScanPoints) break;
   }
   left_out_ += first - scans.begin();
-  for (auto scan = first; scan != scans.end(); ++scan) map.add(*scan);
-  return static_cast<int>(scans.end() - first);
+  int used = 0;
+  for (auto complete = first; complete != scans.end(); ++complete) {
+    if (map.add(complete->scan) > 0) {
+      ++used;
+      continue;
+    }
+    note(
+        fmt::format("sensor {}: scans without a measured point: a covered lens, or all nearer than "
+                    "mapper.live.min_range_m",
+                    complete->sensor));
+  }
+  return used;
 }
 
 UTime LiveIntake::next_complete() const {

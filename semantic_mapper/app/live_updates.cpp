@@ -61,8 +61,9 @@ void LiveUpdates::receive(const MapFile& part) {
 
 void LiveUpdates::add_scans(UTime now) {
   const std::int64_t left_out = intake_.left_out();
-  if (intake_.add_to(map_, now) == 0) return;
+  const int used = intake_.add_to(map_, now);
   if (intake_.left_out() > left_out) last_left_out_ = now;
+  if (used == 0) return;
   begin();
   last_scan_ = now;
 }
@@ -76,18 +77,20 @@ std::optional<VoxelMap> LiveUpdates::take_new(UTime now) {
 }
 
 std::string LiveUpdates::waiting_for() const {
+  const std::string why = intake_.trouble().empty() ? "" : "; " + intake_.trouble();
   if (!has_begun_) {
-    const std::string first = "a scan on POINT_CLOUD or DEPTH_IMAGE, or an OctoMap on MAP_FILE";
+    const std::string first = "a scan on POINT_CLOUD or DEPTH_IMAGE, or an OctoMap on MAP_FILE" + why;
     return refused_file_.empty() ? first : first + "; an OctoMap is not used: " + refused_file_;
   }
   if (!last_scan_) return "";
   const Duration silence = bus_.clock().now() - *last_scan_;
   if (silence < kScanSilence) return "";
-  return fmt::format("scans: the last one came {:.0f} s ago", silence.seconds());
+  return fmt::format("scans: the last usable one came {:.0f} s ago", silence.seconds()) + why;
 }
 
 std::string LiveUpdates::trouble() const {
   if (!refused_file_.empty()) return "an OctoMap is not used: " + refused_file_;
+  if (const std::string of_scan = intake_.trouble(); !of_scan.empty()) return of_scan;
   if (!last_left_out_ || bus_.clock().now() - *last_left_out_ >= kScanSilence) return "";
   return fmt::format("overloaded: {} scans so far were left out for newer ones; send fewer points", intake_.left_out());
 }

@@ -20,7 +20,7 @@ class LiveUpdates {
   /// @param base  the map of the files. @throws std::invalid_argument as LiveMap's constructor
   LiveUpdates(Bus& bus, const VoxelMap& base, const LiveSetup& setup);
 
-  /// Whether a scan or an OctoMap was used.
+  /// Whether a scan with a point that counts, or an OctoMap, was used.
   [[nodiscard]] bool has_begun() const { return has_begun_; }
   /// Adds the scans that are complete.
   void add_scans(UTime now);
@@ -28,10 +28,11 @@ class LiveUpdates {
   std::optional<VoxelMap> take_new(UTime now);
   [[nodiscard]] UTime next_map() const { return next_map_; }
   [[nodiscard]] UTime next_scan() const { return intake_.next_complete(); }
-  /// The text for HEARTBEAT while scans are missing; "" while they come, or if there is an OctoMap and no scan ever
-  /// came.
+  /// The text for HEARTBEAT while usable scans are missing (LiveIntake). "" while they come, or if there is an OctoMap
+  /// and no scan was ever used.
   [[nodiscard]] std::string waiting_for() const;
-  /// The text for HEARTBEAT if scans were left out in the last kScanSilence, or the newest OctoMap is refused; else "".
+  /// The text for HEARTBEAT if scans were left out in the last kScanSilence, one was not used, or the newest OctoMap is
+  /// refused; else "".
   [[nodiscard]] std::string trouble() const;
 
  private:

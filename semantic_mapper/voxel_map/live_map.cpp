@@ -57,7 +57,7 @@ void LiveMap::pass(std::int64_t voxel) {
   log_odds_[i] = static_cast<std::int8_t>(std::max(before + kPass, kLowest));
 }
 
-void LiveMap::add(const Scan& scan) {
+int LiveMap::add(const Scan& scan) {
   ++scans_;
   const double reach = scan.range > 0.0 ? std::min(scan.range, range_.max) : range_.max;
   const VoxelGrid& grid = base_.grid;
@@ -84,6 +84,7 @@ void LiveMap::add(const Scan& scan) {
     }
   }
   for (const Vec3& end : ends) walk_ray(grid, scan.sensor, end, [this](std::int64_t voxel) { pass(voxel); });
+  return static_cast<int>(ends.size());
 }
 
 bool LiveMap::set_octomap(const OctoMapFile& octomap) {

@@ -48,7 +48,8 @@ class LiveMap {
   LiveMap(VoxelMap base, const ClassMeanings& classes, const ScanRange& range);
 
   /// Adds a scan. Points of a scan without classes are occupied, of class "unlabelled". O(points · range/resolution).
-  void add(const Scan& scan);
+  /// @return the number of points that count, those beyond the range included. 0: the scan says nothing
+  int add(const Scan& scan);
   /// Sets the OctoMap of another program, in place of the one before. O(voxels + leaves).
   /// @return false if it marks no voxel. It then changes nothing.
   [[nodiscard]] bool set_octomap(const OctoMapFile& octomap);

@@ -153,6 +153,38 @@ TEST_F(DetectorNodeTest, ACameraThatFreezesInFlightIsNamedAndNotUsed) {
   EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 3 is frozen"));
 }
 
+TEST_F(DetectorNodeTest, ALidarThatFreezesInFlightIsNamedAndNotUsed) {
+  scene_.render(looking(Vec3(0, 0, 1), 0.0), {kBox}, 0.0);
+  CloudScan scan;
+  scan.sensor_id = 4;
+  scan.sensor_position = Vec3(0, 0, 1);
+  for (int pixel = 0; pixel < scene_.picture.shape().pixels(); pixel += 5) {
+    if (!scene_.picture.is_surface(pixel)) continue;
+    scan.points.push_back({scene_.picture.at_depth(pixel, scene_.picture.depths()[pixel]), 0});
+  }
+  for (int k = 0; k < 2; ++k) {
+    scan.at = runner_.now();
+    runner_.observer().publish(channels::kPointCloud, scan);
+    run(0.1);
+    scan.sensor_position.x() += 0.5;
+  }
+  EXPECT_EQ(frames_.size(), 1u);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 4 is frozen"));
+}
+
+TEST_F(DetectorNodeTest, AnEmptyFieldIsNoFrozenCamera) {
+  scene_.render(looking(Vec3(0, 0, 30), 0.0), {});
+  auto empty = support::depth_images(scene_.picture, 50);
+  for (DepthImage& part : empty) std::ranges::fill(part.depths, std::numeric_limits<std::int16_t>::max());
+  for (int k = 0; k < 5; ++k) {
+    send(empty);
+    run(0.1);
+    for (DepthImage& part : empty) part.sensor_position.x() += 0.5;
+  }
+  EXPECT_EQ(frames_.size(), 5u);
+  EXPECT_EQ(node_->health().waiting_for, "");
+}
+
 TEST_F(DetectorNodeTest, AnImageThatNoMemoryHoldsIsNamedAndCostsNothing) {
   DepthImage lie;
   lie.width = 28'800;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,7 +85,7 @@ TEST_F(LiveMapperTest, ACloudBecomesOccupiedAndFreeVoxels) {
   const std::size_t versions = maps_.size();
   run(1.9);
   EXPECT_EQ(maps_.size(), versions) << "without a change there is no version";
-  EXPECT_THAT(node_->health().waiting_for, HasSubstr("scans: the last one came"));
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("scans: the last usable one came"));
 }
 
 TEST_F(LiveMapperTest, WhatGoesAwayIsFreedWithinTwoSecondsOfScans) {
@@ -151,6 +152,79 @@ TEST_F(LiveMapperTest, ADepthImageBecomesOccupiedAndFreeVoxels) {
   EXPECT_EQ(label_at({6.1, 3.0, 0.6}), VoxelLabel::Occupied);
   EXPECT_EQ(label_at({3, 5, 1}), VoxelLabel::Free);
   EXPECT_EQ(label_at({9, 5, 1}), VoxelLabel::Unknown);
+}
+
+TEST_F(LiveMapperTest, ADriverThatRepeatsAScanWhileTheVehicleMovesFreesNoWall) {
+  for (int i = 0; i < 10; ++i) {
+    runner_.observer().publish(channels::kPointCloud, wall(6.1));
+    run(0.1);
+  }
+  ASSERT_EQ(label_at({6.1, 5, 1}), VoxelLabel::Occupied);
+  for (int i = 0; i < 20; ++i) {
+    CloudScan repeated = wall(6.1);
+    repeated.sensor_position.x() += 0.5 + 0.05 * i;
+    // The driver turns the same measurement by the attitude that it knows.
+    for (CloudPoint& point : repeated.points) {
+      point.position = Eigen::AngleAxisf(0.01F * static_cast<float>(i), Eigen::Vector3f::UnitZ()) * point.position;
+    }
+    runner_.observer().publish(channels::kPointCloud, repeated);
+    run(0.1);
+  }
+  EXPECT_EQ(label_at({6.1, 5, 1}), VoxelLabel::Occupied);
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 0 is frozen"));
+}
+
+TEST_F(LiveMapperTest, AScanThatIsOldWhenItComesIsNotUsedAndIsNamed) {
+  run(3.0);
+  for (int i = 0; i < 10; ++i) {
+    CloudScan old = wall(6.1);
+    old.at = old.at - Duration{2'000'000};
+    runner_.observer().publish(channels::kPointCloud, old);
+    run(0.1);
+  }
+  EXPECT_TRUE(maps_.empty());
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 0: its POINT_CLOUD is 2 s old"));
+}
+
+TEST_F(LiveMapperTest, AFlightDoesNotBeginWithScansWithoutAMeasuredPoint) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  CloudScan covered = wall(6.1);
+  for (CloudPoint& point : covered.points) point.position.setConstant(kNaN);
+  const auto send = [&] {
+    covered.at = runner_.now();
+    runner_.observer().publish(channels::kPointCloud, covered);
+    run(0.1);
+  };
+  for (int i = 0; i < 10; ++i) send();
+  EXPECT_TRUE(maps_.empty());
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("sensor 0: scans without a measured point"));
+  for (CloudPoint& point : covered.points) point.position = Eigen::Vector3f(0.1F, 0, 0);  // the lens cap
+  for (int i = 0; i < 10; ++i) send();
+  EXPECT_TRUE(maps_.empty());
+  runner_.observer().publish(channels::kPointCloud, wall(6.1));
+  run(0.1);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  for (int i = 0; i < 25; ++i) send();
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting) << "covered in flight";
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("scans: the last usable one came"));
+}
+
+TEST_F(LiveMapperTest, AnEmptyFieldIsAMeasurementFromWhereverItIsSeen) {
+  CloudScan empty = wall(6.1);
+  empty.range_m = 4.0;
+  for (CloudPoint& point : empty.points) point.position *= 100.0F / point.position.norm();
+  for (int i = 0; i < 30; ++i) {
+    empty.at = runner_.now();
+    empty.sensor_position.x() += 0.1;
+    runner_.observer().publish(channels::kPointCloud, empty);
+    run(0.1);
+  }
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  EXPECT_EQ(node_->health().waiting_for, "");
+  EXPECT_EQ(label_at({7.1, 5, 1}), VoxelLabel::Free);
 }
 
 /// The parts of an OctoMap of 16³ voxels of 0.5 m whose lower corner is at `origin`: free, but for one voxel.
