@@ -1,8 +1,10 @@
 #include "flight_log/flight_log.h"
 
 #include <algorithm>
+#include <charconv>
 #include <deque>
 #include <filesystem>
+#include <set>
 #include <unordered_set>
 
 #include "core/base/digest.h"
@@ -42,16 +44,51 @@ class Recent {
   std::deque<std::uint64_t> order_;
 };
 
+std::string first_part(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) ? (fs::path(path) / "flight.lcm").string() : path;
+}
+
+/// Returns the numbers of the parts beside the first one.
+std::set<int> further_parts(const std::string& first) {
+  std::set<int> parts;
+  std::error_code ignored;
+  // The next ones are found also in a folder that cannot be listed.
+  for (int part = 1; fs::exists(log_part_path(first, part), ignored); ++part) parts.insert(part);
+  const fs::path path(first);
+  const std::string begin = path.stem().string() + ".";
+  for (fs::directory_iterator it(path.has_parent_path() ? path.parent_path() : ".", ignored), end; it != end;
+       it.increment(ignored)) {
+    const std::string name = it->path().filename().string();
+    int part = 0;
+    if (!name.starts_with(begin)) continue;
+    const auto number = std::from_chars(name.data() + begin.size(), name.data() + name.size(), part);
+    const bool is_part = number.ec == std::errc() && part > 0;
+    if (is_part && name == fs::path(log_part_path(first, part)).filename()) parts.insert(part);
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<std::string> log_parts(const std::string& path) {
-  std::error_code ignored;
-  const std::string first = fs::is_directory(path, ignored) ? (fs::path(path) / "flight.lcm").string() : path;
+  const std::string first = first_part(path);
   std::vector<std::string> parts{first};
-  for (int part = 1; fs::exists(log_part_path(first, part), ignored); ++part) {
-    parts.push_back(log_part_path(first, part));
-  }
+  for (const int part : further_parts(first)) parts.push_back(log_part_path(first, part));
   return parts;
+}
+
+std::vector<std::string> missing_log_parts(const std::string& path) {
+  const std::string first = first_part(path);
+  const auto name = [&first](int part) { return fs::path(log_part_path(first, part)).filename().string(); };
+  std::vector<std::string> missing;
+  int expected = 1;
+  for (const int part : further_parts(first)) {
+    if (part == expected + 1) missing.push_back(name(expected));
+    if (part > expected + 1) missing.push_back(name(expected) + " to " + name(part - 1));
+    expected = part + 1;
+  }
+  return missing;
 }
 
 /// One reading of all parts.
@@ -61,6 +98,8 @@ struct FlightLog::Reading {
   LogContents contents;
   std::map<std::string, MessageLosses> losses;
   std::map<std::string, Recent> recent;
+  std::int64_t last_us = INT64_MIN;  ///< of the event before
+  std::int64_t places_of_part = 0;
 
   /// Keeps the last span open; the messages of several senders need not come in order.
   void extend_spans(std::int64_t at_us) {
@@ -100,6 +139,14 @@ struct FlightLog::Reading {
     return channel;
   }
 
+  /// Remembers between which events damaged places lie. @param places  damaged places of this part so far
+  void find_damage(std::int64_t places, std::int64_t before_us, std::int64_t after_us) {
+    if (places > places_of_part && contents.damaged.size() < kMaxSpans) {
+      contents.damaged.emplace_back(before_us, after_us);
+    }
+    places_of_part = places;
+  }
+
   void take(const LogEvent& event) {
     if (contents.events++ == 0) contents.first_us = contents.last_us = event.received_us;
     contents.first_us = std::min(contents.first_us, event.received_us);
@@ -129,6 +176,22 @@ struct FlightLog::Reading {
     }
   }
 
+  /// Reads one file. @param last_number  of the last event of the part before; set to that of this part
+  Result<void> read(const std::string& part, std::optional<std::int64_t>& last_number) {
+    auto reader = LogReader::open(part, last_number);
+    if (!reader) return tl::make_unexpected(reader.error());
+    places_of_part = 0;
+    while (const auto event = reader->next()) {
+      find_damage(reader->damage().places, last_us, event->received_us);
+      last_us = event->received_us;
+      take(*event);
+    }
+    find_damage(reader->damage().places, last_us, INT64_MAX);
+    take(reader->damage());
+    last_number = reader->last_number();
+    return {};
+  }
+
   void take(const LogDamage& damage) {
     contents.damage.places += damage.places;
     contents.damage.bytes += damage.bytes;
@@ -144,16 +207,15 @@ void FlightLog::add(std::string_view channel, Handler handler) {
 Result<LogContents> FlightLog::read(const std::string& path) {
   Reading reading{handlers_, suffix_, {}, {}, {}};
   reading.contents.parts = log_parts(path);
+  reading.contents.missing_parts = missing_log_parts(path);
+  std::optional<std::int64_t> last_number;
   for (const std::string& part : reading.contents.parts) {
     if (is_text_log(part)) {
       const auto whole = read_text_log(part, [&reading](const LogEvent& event) { reading.take(event); });
       if (!whole) return tl::make_unexpected(whole.error());
       continue;
     }
-    auto reader = LogReader::open(part);
-    if (!reader) return tl::make_unexpected(reader.error());
-    while (const auto event = reader->next()) reading.take(*event);
-    reading.take(reader->damage());
+    if (auto whole = reading.read(part, last_number); !whole) return tl::make_unexpected(whole.error());
   }
   reading.join_spans();
   return std::move(reading.contents);

@@ -50,13 +50,21 @@ struct LogContents {
 
   /// The spans between silences: first and last time, µs since the Unix epoch; ascending.
   std::vector<std::pair<std::int64_t, std::int64_t>> spans;
-  LogDamage damage;                            ///< of all parts together; `truncated` is that of the last part
+  LogDamage damage;  ///< of all parts together; `truncated` is that of the last part.
+  /// Between which receive times damaged places lie, µs since the Unix epoch, in the log's order. INT64_MIN and
+  /// INT64_MAX stand for the log's beginning and end.
+  std::vector<std::pair<std::int64_t, std::int64_t>> damaged;
+  std::vector<std::string> missing_parts;      ///< missing_log_parts()
   std::map<std::string, LogChannel> channels;  ///< by name on the wire, including the suffix
 };
 
-/// Returns the files of a log: `path` (or flight.lcm in the folder `path`) and the parts that tern-logger wrote after
-/// it.
+/// Returns the files of a log in their order: `path` (or flight.lcm in the folder `path`), then the further parts that
+/// tern-logger wrote. A missing number does not end the list.
 std::vector<std::string> log_parts(const std::string& path);
+
+/// Returns the parts that are missing between those of log_parts(), in words: "flight.001.lcm" or "flight.001.lcm to
+/// flight.004.lcm".
+std::vector<std::string> missing_log_parts(const std::string& path);
 
 /// Passes the messages of a log to handlers of their channels, in the log's order.
 ///

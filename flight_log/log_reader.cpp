@@ -24,10 +24,10 @@ bool is_printable(std::uint8_t c) { return c > 0x20 && c < 0x7F; }
 
 }  // namespace
 
-Result<LogReader> LogReader::open(const std::string& path) {
+Result<LogReader> LogReader::open(const std::string& path, std::optional<std::int64_t> last_number) {
   File file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) return fail(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  return LogReader(std::move(file));
+  return LogReader(std::move(file), last_number);
 }
 
 /// Reads ahead until `wanted` bytes follow the cursor or the file ends. @return the number of bytes available
@@ -126,6 +126,7 @@ std::optional<LogEvent> LogReader::next() {
     if (head && is_whole(*head)) return take(*head);
     skip(find_next());
   }
+  if (std::ferror(file_.get()) != 0) skip(0);  // what the disk does not give is damage, not the end
   damage_.truncated = in_damage_;
   return std::nullopt;
 }

@@ -19,7 +19,7 @@ struct LogDamage {
   std::int64_t bytes = 0;   ///< bytes at these places
   std::int64_t missing =
       0;                   ///< events missing in the sequence of event numbers; a restart of the numbers does not count
-  bool truncated = false;  ///< the file ends within an event
+  bool truncated = false;  ///< the file ends within an event, or its rest cannot be read
 };
 
 /// Reads the events of one file in their order.
@@ -32,13 +32,17 @@ struct LogDamage {
 /// event. The format has no checksum; damage within the data of a message is left to the message's decoder.
 class LogReader {
  public:
-  /// Opens a file. @return an Error that names path and reason if it cannot be opened
-  static Result<LogReader> open(const std::string& path);
+  /// Opens a file.
+  /// @param last_number  of the last event of the part before: events that are missing between the parts are counted
+  /// @return an Error that names path and reason if it cannot be opened
+  static Result<LogReader> open(const std::string& path, std::optional<std::int64_t> last_number = std::nullopt);
 
   /// Returns the next complete event, or nullopt at the end. It throws std::bad_alloc only.
   std::optional<LogEvent> next();
   /// Returns the damage so far; it is final once next() has returned nullopt.
   [[nodiscard]] const LogDamage& damage() const { return damage_; }
+  /// Returns the number of the last event so far; nullopt before the first one of a log.
+  [[nodiscard]] std::optional<std::int64_t> last_number() const { return last_number_; }
 
  private:
   struct Head {
@@ -47,7 +51,7 @@ class LogReader {
     [[nodiscard]] std::size_t size() const { return kLogHeadBytes + channel_bytes + data_bytes; }
   };
   using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-  explicit LogReader(File file) : file_(std::move(file)) {}
+  LogReader(File file, std::optional<std::int64_t> last_number) : file_(std::move(file)), last_number_(last_number) {}
   std::size_t available(std::size_t wanted);
   [[nodiscard]] std::optional<Head> head_at(std::size_t offset);
   [[nodiscard]] bool starts_within(const Head& head);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "flight_log/log_writer.h"
 #include "messages/codec.h"
@@ -54,6 +55,77 @@ TEST_F(FlightLogTest, HandsOverMessagesInTheLogsOrderThroughAllParts) {
 
 TEST_F(FlightLogTest, AFolderMeansTheFlightInIt) {
   EXPECT_EQ(log_parts(std::filesystem::path(path_).parent_path().string()), std::vector<std::string>{path_});
+}
+
+/// A log of ten parts with one event each, as one logger writes it.
+void write_ten_parts(const std::string& path) {
+  std::filesystem::remove(path);
+  auto writer = LogWriter::open(path, 1);
+  for (int k = 1; k <= 10; ++k) {
+    writer->append(channels::kGoal.name, 1'000 + k, encode(goal(k)));
+    (void)writer->flush();
+  }
+}
+
+TEST_F(FlightLogTest, APartThatIsMissingEndsNoLogAndIsNamed) {
+  write_ten_parts(path_);
+  FlightLog log;
+  EXPECT_TRUE(log.read(path_)->missing_parts.empty());
+  for (const char* lost : {"flight.001.lcm", "flight.004.lcm", "flight.005.lcm", "flight.006.lcm"}) {
+    std::filesystem::remove(folder_.file(lost));
+  }
+  const LogContents contents = *log.read(path_);
+  EXPECT_EQ(contents.events, 6);
+  EXPECT_EQ(contents.parts[1], folder_.file("flight.002.lcm"));
+  EXPECT_EQ(contents.missing_parts, (std::vector<std::string>{"flight.001.lcm", "flight.004.lcm to flight.006.lcm"}));
+  EXPECT_EQ(contents.damage.missing, 4) << "as the event numbers show";
+}
+
+TEST_F(FlightLogTest, AFileWithAnotherKindOfNameIsNoPart) {
+  for (const char* name : {"flight.2.lcm", "flight.0002.lcm", "flight.000.lcm", "flight.-01.lcm", "flight.002.lcm.bak",
+                           "flight2.002.lcm", "flight.002.txt", "flight..lcm"}) {
+    std::ofstream(folder_.file(name)) << "?";
+  }
+  EXPECT_EQ(log_parts(path_), std::vector<std::string>{path_});
+  EXPECT_TRUE(missing_log_parts(path_).empty());
+}
+
+TEST_F(FlightLogTest, CountsTheEventsThatAreMissingBetweenTwoParts) {
+  std::filesystem::remove(path_);
+  auto writer = LogWriter::open(path_, 1);
+  for (int part = 0; part < 2; ++part) {
+    for (int k = 1; k <= 20; ++k) writer->append(channels::kGoal.name, 1'000, encode(goal(20 * part + k)));
+    (void)writer->flush();
+  }
+  const std::string second = folder_.file("flight.001.lcm");
+  std::ifstream file(second, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  std::ofstream(second, std::ios::binary) << bytes.substr(bytes.size() / 20 * 12);
+  FlightLog log;
+  const LogContents contents = *log.read(path_);
+  EXPECT_EQ(contents.events, 28);
+  EXPECT_EQ(contents.damage.missing, 12);
+  EXPECT_EQ(contents.damage.places, 0);
+}
+
+TEST_F(FlightLogTest, ALoggerThatWasRestartedLeavesNoGap) {
+  for (int k = 1; k <= 3; ++k) write(channels::kGoal.name, encode(goal(k)));
+  next_part();
+  for (int k = 4; k <= 6; ++k) write(channels::kGoal.name, encode(goal(k)));
+  FlightLog log;
+  EXPECT_EQ(read(log).damage.missing, 0);
+}
+
+TEST_F(FlightLogTest, SaysBetweenWhichMessagesDamagedPlacesLie) {
+  for (int k = 1; k <= 4; ++k) write(channels::kGoal.name, encode(goal(k)));
+  (void)writer_->flush();
+  std::ifstream file(path_, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(file), {});
+  bytes.replace(bytes.size() / 4, 4, 4, '\0');
+  std::ofstream(path_, std::ios::binary) << "?" << bytes << "?";
+  FlightLog log;
+  using Places = std::vector<std::pair<std::int64_t, std::int64_t>>;
+  EXPECT_EQ(log.read(path_)->damaged, (Places{{INT64_MIN, 1'000}, {1'000, 1'002}, {1'003, INT64_MAX}}));
 }
 
 TEST_F(FlightLogTest, CountsWhatIsLostForeignOrOfAnotherVersion) {

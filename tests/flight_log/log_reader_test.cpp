@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "flight_log/log_writer.h"
@@ -48,6 +49,15 @@ TEST(LogReader, SaysWhyAFileCannotBeRead) {
   const auto reader = LogReader::open("/nowhere.lcm");
   ASSERT_FALSE(reader);
   EXPECT_NE(reader.error().message.find("/nowhere.lcm"), std::string::npos);
+}
+
+TEST(LogReader, WhatTheDiskDoesNotGiveIsDamage) {
+  const TempFolder folder;
+  auto reader = LogReader::open(std::filesystem::path(folder.file("any")).parent_path().string());
+  ASSERT_TRUE(reader) << "a folder opens, and no read of it succeeds";
+  EXPECT_FALSE(reader->next());
+  EXPECT_TRUE(reader->damage().truncated);
+  EXPECT_EQ(reader->damage().places, 1);
 }
 
 TEST(LogReader, AnEmptyFileIsAnEmptyLog) {
