@@ -133,6 +133,8 @@ std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event)
   if (is_monitor ? !has_summary && event.code != kExitIncomplete : event.code != 0) {
     const std::string words = last_line(read_text(record / (event.process + ".log")));
     give_up(record, fmt::format("{} ended with exit code {}: {}", event.process, event.code, words));
+    std::error_code error;
+    if (!fs::exists(record / "failure", error)) return kExitFailed;  // the monitor cannot learn of it
   }
   return is_monitor ? std::optional(code_after_flight(event.code, has_summary)) : std::nullopt;
 }

@@ -94,6 +94,16 @@ a_requested_summary_is_written_or_its_lack_is_told() {
   [[ $(cat "$work/s.json") == '{}' ]] || fail "not copied: $(cat "$work/s.json")"
 }
 
+# The monitor, which waits, cannot learn that the flight has failed.
+a_flight_whose_folder_is_lost_ends_with_a_summary() {
+  make_stand_ins
+  echo 'while :; do read -rt 1 <> <(:) || true; done' >"$work/at_end"
+  printf '#!/bin/sh\nrm -r "%s"\nexit 2\n' "$work/lost" >"$work/bin/tern-planner"
+  [[ $(launch --record="$work/lost" --summary="$work/s.json") == 3 ]] || fail "exit code: $(cat "$work/out")"
+  expect "the reason" has_text "tern-planner ended with exit code 2" "$work/out"
+  expect "a summary" has_text "\"detail\": \"$work/lost: the reason could not be written\"" "$work/s.json"
+}
+
 # It is asked to end while the bridge waits for a restart, or is about to crash again.
 a_bridge_that_has_crashed_leaves_a_warning() {
   mkdir "$work/bin"
