@@ -137,8 +137,9 @@ void audit(const Auditor& auditor, const std::string& folder, FlightRecord& reco
 
 RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, const CampaignIdentity& identity,
                             const std::string& folder, const Auditor& auditor, FlightObserver* observer) {
-  record_text(folder + "/scenario.yaml", spell_out(inputs, seed));
   const std::string log = folder + "/flight.lcm";
+  if (std::filesystem::exists(log)) throw CannotRecord(log + ": exists already; choose another folder");
+  record_text(folder + "/scenario.yaml", spell_out(inputs, seed));
   auto writer = LogWriter::open(log, 0);
   if (!writer) throw CannotRecord(writer.error().message);
   RecordedFlight flight;
@@ -148,7 +149,7 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
   {
     VirtualSystem system(inputs.scenario_file, inputs.with_seed(seed), inputs.charge);
     VirtualRunner& runner = system.runner();
-    FlightWatch watch(system.scenario(), runner.now());
+    FlightWatch watch(system.timed_scenario(), runner.now());
     runner.observer().listen([&](std::string_view channel, std::int64_t, std::span<const std::uint8_t> bytes) {
       writer->append(channel, runner.now().us, bytes);
     });

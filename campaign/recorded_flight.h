@@ -9,8 +9,8 @@
 
 namespace tern {
 
-/// Thrown if a file of the flight cannot be written. The campaign then ends with an error, and its next call flies
-/// the seed again.
+/// Thrown if a file of the flight cannot be written, or if the folder holds a log already. The campaign then ends with
+/// an error, and its next call flies the seed again.
 class CannotRecord : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -38,7 +38,7 @@ struct RecordedFlight {
   FlightTimes times;
 };
 
-/// Flies one seed and writes three files to `folder`, which must exist:
+/// Flies one seed and writes three files to `folder`, which must exist and hold no flight.lcm:
 ///
 /// - scenario.yaml (spell_out()), before the flight, so that it survives a crash
 /// - flight.lcm: every message, with virtual times

@@ -27,7 +27,7 @@ int check(const Options& options) {
   fmt::print("{}", to_text(view));
   if (!options.out.empty()) {
     const bool was_there = std::filesystem::exists(options.out);
-    if (!write_text(options.out, draw_scenario(view))) throw ConfigError(options.out + ": cannot be written");
+    if (!write_text(options.out, draw_scenario(view))) throw FileError(options.out + ": cannot be written");
     fmt::print("  drawn     {}{}\n", options.out, was_there ? ", replacing the old file" : "");
   }
   return view.shortest ? 0 : kExitUnreachable;

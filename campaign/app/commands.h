@@ -2,12 +2,33 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
 
+#include "core/base/result.h"
 #include "runtime/command_line.h"
 
 namespace tern {
 
-/// Runs a subcommand. @return the exit code. @throws ConfigError for an error that the user must correct (exit code 2)
+/// Exit code if a file cannot be read or written.
+inline constexpr int kExitFile = 3;
+
+/// A file cannot be read or written (exit code 3).
+class FileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Returns the result's value. @throws FileError with the error's text if there is none
+template <class T>
+T value_of_file(Result<T> result) {
+  if (!result) throw FileError(result.error().message);
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+/// Runs a subcommand. @return the exit code. @throws ConfigError for an error that the user must correct (exit code 2),
+/// FileError, and std::filesystem::filesystem_error (exit code 3)
 using Command = std::function<int()>;
 
 /// Each function sets `chosen` if its subcommand is on the command line. add_campaign adds the program itself, which

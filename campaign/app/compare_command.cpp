@@ -28,7 +28,7 @@ struct Options {
 
 int compare_files(const Options& options) {
   const CampaignComparison comparison =
-      value_or_throw(compare(value_or_throw(read_flights(options.a)), value_or_throw(read_flights(options.b))),
+      value_or_throw(compare(value_of_file(read_flights(options.a)), value_of_file(read_flights(options.b))),
                      options.a + " and " + options.b + ": ");
   if (options.form == "svg") {
     fmt::print("{}", draw_comparison(comparison));
@@ -49,8 +49,8 @@ int write_page(const PageOptions& options) {
   const fs::path out = options.out.empty() ? options.flights + ".html" : options.out;
   const fs::path failures = options.failures.empty() ? default_failures(options.flights) : options.failures;
   const fs::path link = fs::absolute(failures).lexically_relative(fs::absolute(out).parent_path());
-  const std::string page = campaign_page(value_or_throw(read_flights(options.flights)), link.string());
-  if (!write_text(out, page)) throw ConfigError(out.string() + ": cannot be written");
+  const std::string page = campaign_page(value_of_file(read_flights(options.flights)), link.string());
+  if (!write_text(out, page)) throw FileError(out.string() + ": cannot be written");
   fmt::print("{}\n", out.string());
   return 0;
 }

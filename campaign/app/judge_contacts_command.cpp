@@ -31,9 +31,21 @@ bool could_be_avoided(const FlightInputs& inputs, std::uint64_t seed, const Move
   return clear_moves(vehicle, world, seed, search) > 0;
 }
 
+/// @throws ConfigError if the flights were flown in another world
+void check_world(const FlightInputs& inputs, const Options& options, const Flights& flights) {
+  if (flights.records.empty()) return;
+  const auto& [seed, record] = *flights.records.begin();
+  CampaignIdentity wanted = check_inputs(inputs, seed);
+  wanted.charge = record.identity.charge;  // these two do not change the world
+  wanted.version = record.identity.version;
+  const std::string why = difference(record.identity, wanted);
+  if (!why.empty()) throw ConfigError(options.flights + ": flights of another world: " + why);
+}
+
 int judge(const Options& options) {
   const FlightInputs inputs = inputs_of(options.flight);
-  const Flights flights = value_or_throw(read_flights(options.flights));
+  const Flights flights = value_of_file(read_flights(options.flights));
+  check_world(inputs, options, flights);
   MoveSearch search;
   search.moves = options.moves;
   std::int64_t contacts = 0;

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <system_error>
 
 #include "campaign/app/commands.h"
 #include "runtime/command_line.h"
@@ -26,10 +27,18 @@ int main(int argc, char** argv) {
   tern::add_paper(app, chosen);
   try {
     if (const auto code = app.parse(argc, argv, tern::kExitBadConfiguration)) return *code;
-    return chosen();
+    const int result = chosen();
+    if (result != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return result;
+    throw tern::FileError("standard output: cannot be written");
   } catch (const tern::ConfigError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return tern::kExitBadConfiguration;
+  } catch (const tern::FileError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return tern::kExitFile;
+  } catch (const std::system_error& error) {  // of std::filesystem, or of fmt for standard output
+    fmt::print(stderr, "tern-campaign: {}\n", error.what());
+    return tern::kExitFile;
   } catch (const std::exception& error) {
     fmt::print(stderr, "tern-campaign: {}\n", error.what());
     return tern::kExitStuck;

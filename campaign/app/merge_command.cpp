@@ -19,8 +19,8 @@ struct Options {
 int merge(const Options& options) {
   Flights all;
   for (const std::string& part : options.parts)
-    value_or_throw(join(all, value_or_throw(read_flights(part))), part + ": ");
-  value_or_throw(write_flights(options.out, all));
+    value_or_throw(join(all, value_of_file(read_flights(part))), part + ": ");
+  value_of_file(write_flights(options.out, all));
   return write_summary(options.out, options.summary, command_line());
 }
 

@@ -31,7 +31,7 @@ struct Options {
 
 void write(const std::string& folder, const std::string& name, const std::string& text) {
   const std::string file = folder + "/" + name;
-  if (!write_text(file, text)) throw ConfigError("cannot write " + file);
+  if (!write_text(file, text)) throw FileError(file + ": cannot be written");
   fmt::print("{}\n", file);
 }
 
@@ -65,8 +65,8 @@ std::vector<SemanticFlight> fly(const SemanticCase& wanted, std::uint64_t seeds,
   const auto end =
       run_campaign(campaign, flight_command(flight), -1, [&](const CampaignProgress& p) { output.show(p); });
   output.finish();
-  value_or_throw(end);
-  const Flights flown = value_or_throw(read_flights(campaign.out));
+  value_of_file(end);
+  const Flights flown = value_of_file(read_flights(campaign.out));
   std::vector<SemanticFlight> flights;
   for (const auto& [seed, record] : flown.records) flights.push_back(semantic_flight(wanted, record));
   std::erase_if(flights, [seeds](const SemanticFlight& f) { return f.seed > seeds; });

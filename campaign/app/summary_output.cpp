@@ -6,13 +6,12 @@
 #include <cstdio>
 #include <fstream>
 
+#include "campaign/app/commands.h"
 #include "campaign/records/campaign_summary.h"
 #include "core/base/files.h"
 
 namespace tern {
 namespace {
-
-constexpr int kExitNoFile = 3;
 
 std::string shell_word(const std::string& word) {
   const auto is_plain = [](char c) {
@@ -34,13 +33,13 @@ int write_summary(const std::string& flights_file, const std::string& summary_fi
   const auto flights = read_flights(flights_file);
   if (!flights) {
     fmt::print(stderr, "{}\n", flights.error().message);
-    return kExitNoFile;
+    return kExitFile;
   }
   const CampaignSummary summary = summarize(*flights);
   fmt::print("{}", to_text(summary));
   if (summary_file.empty() || write_text(summary_file, to_json(summary, command))) return 0;
   fmt::print(stderr, "{}: cannot be written\n", summary_file);
-  return kExitNoFile;
+  return kExitFile;
 }
 
 std::int64_t count_audited(const std::string& flights_file) {

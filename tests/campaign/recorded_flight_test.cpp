@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -35,6 +37,25 @@ TEST(RecordedFlight, ASpeltOutScenarioMakesTheSameFlight) {
   EXPECT_EQ(again.result.path_length_m, flown.result.path_length_m);
   EXPECT_EQ(again.result.min_clearance_m, flown.result.min_clearance_m);
   EXPECT_EQ(again.plans, flown.plans);
+}
+
+TEST(RecordedFlight, AMissionMayTakeLongerThanTheWayToTheScenariosGoal) {
+  const TempFolder folder;
+  const std::string mission = folder.file("mission.csv");
+  std::ofstream(mission) << "x,y,z,hold_s\n1,0,1,80\n";
+  const FlightInputs inputs =
+      short_hop(Charge::Counts, {"world.count=0", "simulator.goals_from=tern-mission", "mission.file=" + mission});
+  const FlightRecord flown = fly(inputs, 1, folder);
+  EXPECT_EQ(flown.result.outcome, FlightOutcome::Reached) << flown.result.detail;
+  EXPECT_GT(flown.result.flight_time_s, 80.0);
+}
+
+TEST(RecordedFlight, AFolderThatHoldsALogIsRefusedAndStaysAsItIs) {
+  const TempFolder folder;
+  std::ofstream(folder.file("flight.lcm")) << "of another flight";
+  EXPECT_THROW(fly(short_hop(Charge::Counts), 1, folder), CannotRecord);
+  const std::filesystem::directory_iterator files(folder.file(""));
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
 TEST(RecordedFlight, TheLogHoldsEveryRequestWithItsAnswerInVirtualTime) {

@@ -80,8 +80,37 @@ bad_arguments_end_with_a_clear_word_and_exit_code_2() {
   refused "no tern-logger runs" --world "$here/short_hop.yaml" --set logger.rotate_mb=3 --out "$work/x.csv"
   refused "charge" judge-contacts --world "$here/short_hop.yaml" --charge cpu "$work/x.csv"
   refused "parts is required" merge --out "$work/x.csv"
-  refused "nothing.csv: no such file" merge --out "$work/x.csv" "$work/nothing.csv"
   [[ $(code "$campaign" --world "$hop" --out "$work/no/such/folder/x.csv") == 3 ]] || fail "a folder that is not there"
+}
+
+# lacks_file WORDS COMMAND...: exit code 3, and the words are said.
+lacks_file() {
+  local words=$1
+  shift
+  [[ $(code "$campaign" "$@") == 3 ]] || fail "exit code of $*: $(cat "$work/out")"
+  said "$words"
+}
+
+files_that_cannot_be_read_or_written_end_with_exit_code_3() {
+  local hop=$here/short_hop.yaml none=$work/nothing.csv
+  lacks_file "nothing.csv: no such file" merge --out "$work/x.csv" "$none"
+  lacks_file "nothing.csv: no such file" compare "$none" "$none"
+  lacks_file "nothing.csv: no such file" page "$none"
+  lacks_file "nothing.csv: no such file" summarize "$none"
+  lacks_file "nothing.csv: no such file" judge-contacts --world "$hop" "$none"
+  lacks_file "no/x.svg: cannot be written" check --world "$hop" --out "$work/no/x.svg"
+  # shellcheck disable=SC2016  # the inner shell expands it
+  [[ $(code bash -c '"$0" columns >/dev/full' "$campaign") == 3 ]] || fail "a full disk: $(cat "$work/out")"
+  said "cannot be written\|cannot write"
+}
+
+contacts_are_judged_in_the_world_of_their_flights_only() {
+  local hop=$here/short_hop.yaml
+  fly "$work/flights.csv" --seeds 1:1
+  [[ $(code "$campaign" judge-contacts --world "$hop" "$work/flights.csv") == 0 ]] || fail "$(cat "$work/out")"
+  said "flights 1, contacts 0"
+  refused "flights of another world: count 3 against 2" judge-contacts --world "$hop" --count 2 "$work/flights.csv"
+  refused "flights of another world: configuration" judge-contacts --world "$hop" --set uav.limits.v_max=3 "$work/flights.csv"
 }
 
 a_campaign_by_counts_gives_the_same_bytes_whatever_the_jobs() {
