@@ -23,6 +23,7 @@ namespace tern {
 /// | a newer one is complete before it was taken    | left out: only the newest one of a sensor is used    |
 /// | the measurement would exceed kMaxValues        | the message is refused                               |
 /// | a message of more than kMaxSensors sensors     | the same                                             |
+/// | kForgotten without a message of a sensor       | its place is free for another one                    |
 ///
 /// @tparam M  DepthImage or CloudScan
 template <class M>
@@ -31,6 +32,8 @@ class ScanParts {
   /// A measurement is complete this long after its last message.
   static constexpr Duration kPatience{50'000};
   static constexpr std::size_t kMaxSensors = 16;
+  /// A sensor does not count this long after its last message.
+  static constexpr Duration kForgotten{5'000'000};
   static constexpr std::size_t kMaxValues = 2'097'152;  ///< depths or points
 
   /// A whole measurement.
@@ -42,7 +45,7 @@ class ScanParts {
 
   /// @return false if the message is refused
   bool add(const M& part, UTime received) {
-    if (!sensors_.contains(part.sensor_id) && sensors_.size() >= kMaxSensors) return false;
+    if (!has_place(part.sensor_id, received)) return false;
     Sensor& sensor = sensors_[part.sensor_id];
     if (!sensor.waiting.parts.empty() && sensor.waiting.parts.front().at != part.at) finish(sensor);
     if (sensor.waiting.values + values_of(part) > kMaxValues) return false;
@@ -84,6 +87,11 @@ class ScanParts {
     UTime received;
     int rows = 0;  ///< of the last whole image
   };
+  bool has_place(std::int32_t id, UTime now) {
+    if (sensors_.contains(id) || sensors_.size() < kMaxSensors) return true;
+    std::erase_if(sensors_, [&](const auto& entry) { return now - entry.second.received > kForgotten; });
+    return sensors_.size() < kMaxSensors;
+  }
   static std::size_t values_of(const DepthImage& part) { return part.depths.size(); }
   static std::size_t values_of(const CloudScan& part) { return part.points.size(); }
   static int last_row(const DepthImage& part) {

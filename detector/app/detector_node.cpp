@@ -12,13 +12,30 @@
 #include "runtime/log.h"
 
 namespace tern {
+namespace {
+
+/// The occupied voxels that a sensor can see. A fence is none: it is occupied as far as it forbids.
+std::vector<Box> surfaces_of(const VoxelMap& map) {
+  const auto fence = std::ranges::find(map.class_names, "fence") - map.class_names.begin();
+  std::vector<bool> surface(map.labels.size());
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    surface[i] = map.labels[i] == VoxelLabel::Occupied && map.classes[i] != fence;
+  }
+  return cover_with_boxes(map.grid, std::move(surface));
+}
+
+}  // namespace
 
 DetectorNode::DetectorNode(Bus& bus, const DetectorConfig& config) : bus_(bus), config_(config) {
   bus_.subscribe(channels::kDepthImage, [this](const DepthImage& part) {
-    if (!images_.add(part, bus_.clock().now())) bus_.count_late(channels::kDepthImage);
+    if (images_.add(part, bus_.clock().now())) return;
+    bus_.count_late(channels::kDepthImage);
+    refused(channels::kDepthImage.name);
   });
   bus_.subscribe(channels::kPointCloud, [this](const CloudScan& part) {
-    if (!clouds_.add(part, bus_.clock().now())) bus_.count_late(channels::kPointCloud);
+    if (clouds_.add(part, bus_.clock().now())) return;
+    bus_.count_late(channels::kPointCloud);
+    refused(channels::kPointCloud.name);
   });
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
 }
@@ -26,7 +43,12 @@ DetectorNode::DetectorNode(Bus& bus, const DetectorConfig& config) : bus_(bus), 
 void DetectorNode::on_map(const MapChunk& chunk) {
   const Result<bool> complete = map_.add(chunk);
   if (!complete) return log::error("map {:016x}: {}", chunk.version, complete.error().message);
-  if (*complete) occupied_ = cover_with_boxes(map_.take(), false);
+  if (*complete) occupied_ = surfaces_of(map_.take());
+}
+
+void DetectorNode::refused(const char* channel) {
+  note(fmt::format("{} is refused: more than {} sensors send it, or a measurement has more than {} values", channel,
+                   ScanParts<DepthImage>::kMaxSensors, ScanParts<DepthImage>::kMaxValues));
 }
 
 UTime DetectorNode::next_wakeup() const {
@@ -62,7 +84,7 @@ void DetectorNode::detect(const ScanParts<DepthImage>::Whole& image) {
 void DetectorNode::detect(const ScanParts<CloudScan>::Whole& cloud) {
   const CloudScan& first = cloud.parts.front();
   last_scan_ = bus_.clock().now();
-  const Result<DepthPicture> picture = picture_of(cloud.parts, config_.noise, config_.least_range_m);
+  const Result<DepthPicture> picture = picture_of(cloud.parts, config_.cloud_noise, config_.least_range_m);
   if (picture && is_frozen(cloud.parts)) return;
   publish(picture, first.at, first.sensor_id);
 }

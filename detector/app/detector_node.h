@@ -22,28 +22,35 @@ struct DetectorConfig {
   bool ground = true;
   double ground_z = 0.0;
   double least_range_m = 0.2;
-  DepthNoise noise{.constant_m = 0.0, .per_m = 0.0025, .block = 1};
+  DepthNoise noise{.constant_m = 0.0, .per_m = 0.0025, .block = 1};      ///< of DEPTH_IMAGE
+  DepthNoise cloud_noise{.constant_m = 0.02, .per_m = 0.0, .block = 1};  ///< of POINT_CLOUD
 
   template <typename V>
   void visit(V& v) {
     v("ground", ground, "there is a level ground: points on it are no obstacles");
     v("ground_z", ground_z, Range::within(1e6), "height of the ground, W, m");
     v("least_range_m", least_range_m, Range{0.0, 10.0}, "nearer depths are not used, as of the vehicle's own body, m");
-    v("sigma_m", noise.constant_m, Range{0.0, 1.0}, "depth noise: σ(z) = sigma_m + sigma_per_m · z², m");
+    v("sigma_m", noise.constant_m, Range{0.0, 1.0},
+      "noise of a DEPTH_IMAGE's depths: σ(z) = sigma_m + sigma_per_m · z², m");
     v("sigma_per_m", noise.per_m, Range{0.0, 1.0}, "the same, 1/m");
     v("noise_block", noise.block, Range{1, 32},
       "blocks of this many pixels have the same noise, as of a stereo camera");
+    v("cloud_sigma_m", cloud_noise.constant_m, Range{0.0, 1.0},
+      "noise of a POINT_CLOUD's distances: σ(z) = cloud_sigma_m + cloud_sigma_per_m · z², m");
+    v("cloud_sigma_per_m", cloud_noise.per_m, Range{0.0, 1.0}, "the same, 1/m; 0.0025 for clouds of a stereo camera");
   }
 };
 
 /// Finds sightings in every DEPTH_IMAGE and POINT_CLOUD by perception/, and publishes them as OBSTACLE_SIGHTINGS of the
-/// same sensor and time. Points on the ground and on the occupied voxels of SEMANTIC_MAP are no sightings.
+/// same sensor and time. Points on the ground and on the occupied voxels of SEMANTIC_MAP are no sightings. Voxels of
+/// class "fence" are air, and do not count.
 ///
 /// | input                                                       | effect                                            |
 /// |-------------------------------------------------------------|---------------------------------------------------|
 /// | an image without a measured depth, or with parts of another | not used; HEARTBEAT names sensor and reason       |
 /// | the same depths from another place (FrozenCheck)            | not used; HEARTBEAT names the frozen sensor       |
 /// | images faster than they are handled                         | the newest of each sensor is used, others counted |
+/// | a message of too many sensors, or a measurement too large   | not used; HEARTBEAT says so (ScanParts)           |
 /// | no scan for kSilence                                        | HEARTBEAT is WAITING                              |
 ///
 /// An image that is not used makes the sensor silent for the predictor. A scan costs 1 to 4 ms of CPU time.
@@ -62,6 +69,7 @@ class DetectorNode final : public Node {
 
  private:
   void on_map(const MapChunk& chunk);
+  void refused(const char* channel);
   void detect(const ScanParts<DepthImage>::Whole& image);
   void detect(const ScanParts<CloudScan>::Whole& cloud);
   void publish(const Result<DepthPicture>& picture, UTime at, std::int32_t sensor);

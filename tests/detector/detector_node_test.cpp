@@ -227,6 +227,68 @@ TEST(ScanParts, AnEndlessMeasurementIsRefusedAtItsLimit) {
   EXPECT_TRUE(parts.add(scan, UTime{200'000}));
 }
 
+TEST(ScanParts, ASensorThatIsSilentGivesItsPlaceToAnother) {
+  ScanParts<CloudScan> parts;
+  CloudScan scan;
+  scan.points.resize(1);
+  for (std::size_t k = 0; k < ScanParts<CloudScan>::kMaxSensors; ++k) {
+    scan.sensor_id = static_cast<std::int32_t>(k);
+    EXPECT_TRUE(parts.add(scan, UTime{0}));
+  }
+  scan.sensor_id = 0;
+  EXPECT_TRUE(parts.add(scan, UTime{4'000'000}));
+  scan.sensor_id = 100;
+  EXPECT_FALSE(parts.add(scan, UTime{4'000'000}));
+  EXPECT_TRUE(parts.add(scan, UTime{5'000'001}));
+  EXPECT_EQ(parts.take(UTime{5'060'000}).size(), 2u) << "the others are forgotten";
+}
+
+TEST_F(DetectorNodeTest, MoreSensorsThanItHandlesAreNamed) {
+  for (int sensor = 0; sensor < 17; ++sensor) send_image(0.0, 100 + sensor);
+  run(0.1);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("DEPTH_IMAGE is refused: more than 16 sensors"));
+}
+
+TEST_F(DetectorNodeTest, APersonBeyondAFenceIsSighted) {
+  VoxelMap map = support::free_map({24, 8, 8});
+  map.class_names = {"", "fence"};
+  support::paint(map, {12, 0, 0}, {23, 7, 7}, VoxelLabel::Occupied);
+  for (std::size_t i = 0; i < map.labels.size(); ++i) map.classes[i] = map.labels[i] == VoxelLabel::Occupied ? 1 : 0;
+  map.version = map.compute_version();
+  for (const MapChunk& chunk : to_chunks(map)) runner_.observer().publish(channels::kSemanticMap, chunk);
+  run(0.1);
+  scene_.render(looking(Vec3(0, 1, 1), 0.0), {Box(Vec3(4.1, 0.7, 0.1), Vec3(4.6, 1.3, 1.8))}, 0.0);
+  send(support::depth_images(scene_.picture, 50));
+  run(0.1);
+  ASSERT_EQ(frames_.size(), 1u);
+  EXPECT_EQ(frames_[0].sightings.size(), 1u);
+}
+
+// A person half a metre before a wall, as a lidar without noise sees them from 16 m.
+TEST_F(DetectorNodeTest, ALidarSeesAPersonBeforeAWall) {
+  DepthSensor lidar;
+  lidar.shape = lidar_shape(6.283185307179586, -1.5707963267948966, 1.5707963267948966, 360, 180);
+  lidar.range_m = 40.0;
+  lidar.noise = {0.0, 0.0, 1};
+  Scene scene(lidar);
+  const Box person(Vec3(16.0, -0.6, 0.0), Vec3(16.4, 0.6, 2.0)), wall(Vec3(17.0, -9, 0), Vec3(17.5, 9, 5));
+  scene.render(looking(Vec3(0, 0, 1), 0.0), {person, wall});
+  CloudScan scan;
+  scan.at = runner_.now();
+  scan.sensor_id = 4;
+  scan.sensor_position = Vec3(0, 0, 1);
+  for (int pixel = 0; pixel < scene.picture.shape().pixels(); ++pixel) {
+    if (!scene.picture.is_surface(pixel)) continue;
+    scan.points.push_back({scene.picture.at_depth(pixel, scene.picture.depths()[pixel]), 0});
+  }
+  ASSERT_LE(scan.points.size(), std::size_t{kMaxCloudPointsPerMessage});
+  runner_.observer().publish(channels::kPointCloud, scan);
+  run(0.1);
+  ASSERT_EQ(frames_.size(), 1u);
+  EXPECT_TRUE(std::ranges::any_of(frames_[0].sightings,
+                                  [](const Sighting& s) { return s.lower.x() > 15.5 && s.upper.x() < 16.9; }));
+}
+
 TEST_F(DetectorNodeTest, PointsOnTheMapAreNoSightings) {
   VoxelMap map = support::free_map({24, 8, 8});
   support::paint(map, {16, 0, 0}, {19, 7, 7}, VoxelLabel::Occupied);  // x from 4 to 5 m
