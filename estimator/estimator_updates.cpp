@@ -107,7 +107,7 @@ void Estimator::State::advance(UTime to) {
 
 void Estimator::State::use(const FeatureFrame& frame, const Masks& masks) {
   filter->add_clone(++number, frame.at);
-  const FeatureFrame seen = unmasked(frame, masks, T_WO.to_O(PoseInW{filter->nav().R, filter->nav().p}));
+  const FeatureFrame seen = unmasked(frame, masks, PoseInW{filter->nav().R, filter->nav().p});
   const int slips = tracks.add(seen, *filter);
   tracked = static_cast<int>(seen.features.size());
   if (tracked > 0) seen_at = frame.at;

@@ -24,11 +24,12 @@ double entry(const Vec3& from, const Vec3& direction, const Box& box) {
 
 }  // namespace
 
-bool may_lie_on(const FeatureFrame& frame, const StereoFeature& feature, const PoseInO& pose, const Box& box_O) {
+bool may_lie_on(const FeatureFrame& frame, const StereoFeature& feature, const PoseInW& pose, const Box& box_W) {
   const Eigen::Quaterniond q_BC(frame.q_BC[0], frame.q_BC[1], frame.q_BC[2], frame.q_BC[3]);
   const Vec3 centre = pose.p + pose.R * frame.p_BC;
+  if (box_W.contains(centre)) return false;
   const Vec3 ray = pose.R * (q_BC.normalized() * feature.left.homogeneous());  // of depth 1
-  const double depth_of_box = entry(centre, ray, box_O);
+  const double depth_of_box = entry(centre, ray, box_W);
   if (!std::isfinite(depth_of_box)) return false;
   if (!feature.has_right) return true;
   // The least disparity that the noise allows gives the largest depth.
@@ -36,10 +37,10 @@ bool may_lie_on(const FeatureFrame& frame, const StereoFeature& feature, const P
   return disparity <= 0.0 || frame.baseline_m / disparity >= depth_of_box;
 }
 
-FeatureFrame unmasked(FeatureFrame frame, const Masks& masks, const PoseInO& pose) {
+FeatureFrame unmasked(FeatureFrame frame, const Masks& masks, const PoseInW& pose) {
   std::erase_if(frame.features, [&](const StereoFeature& feature) {
     return std::ranges::any_of(masks.image, [&](const auto& part) { return part.contains(feature.left); }) ||
-           std::ranges::any_of(masks.boxes_O, [&](const Box& box) { return may_lie_on(frame, feature, pose, box); });
+           std::ranges::any_of(masks.boxes_W, [&](const Box& box) { return may_lie_on(frame, feature, pose, box); });
   });
   return frame;
 }

@@ -12,16 +12,17 @@ namespace tern {
 /// Where features are not used.
 struct Masks {
   std::vector<Eigen::AlignedBox2d> image;  ///< rectangles of the left image, normalized coordinates
-  std::vector<Box> boxes_O;                ///< in O, m, at the time of the frame: a predicted box with its α
+  std::vector<Box> boxes_W;                ///< in W, m, at the time of the frame: a predicted box with its α
 };
 
 /// Whether the ray of the feature meets a box in front of it. With a right view, the feature must not lie nearer than
-/// the box by more than its error (3 σ of the disparity).
+/// the box by more than its error (3 σ of the disparity). A box that contains the camera is left out: it
+/// would hide every feature.
 /// @param pose  of B at the time of the exposure
-bool may_lie_on(const FeatureFrame& frame, const StereoFeature& feature, const PoseInO& pose, const Box& box_O);
+bool may_lie_on(const FeatureFrame& frame, const StereoFeature& feature, const PoseInW& pose, const Box& box_W);
 
 /// Returns the frame without the features in masked parts. Cost: features × masks.
 /// @param pose  of B at the time of the exposure
-FeatureFrame unmasked(FeatureFrame frame, const Masks& masks, const PoseInO& pose);
+FeatureFrame unmasked(FeatureFrame frame, const Masks& masks, const PoseInW& pose);
 
 }  // namespace tern

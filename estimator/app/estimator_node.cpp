@@ -54,7 +54,7 @@ void EstimatorNode::on_predictions(const TrackSet& batch) {
 Masks EstimatorNode::masks_at(UTime at) const {
   Masks masks;
   if (at - movers_made_at_ > kOldestMask) return masks;
-  for (const Track& track : movers_) masks.boxes_O.push_back(track.bounds(at, at));
+  for (const Track& track : movers_) masks.boxes_W.push_back(track.bounds(at, at));
   return masks;
 }
 
@@ -100,7 +100,7 @@ NodeHealth EstimatorNode::health() const {
   const EstimatorPhase phase = estimator_.status().phase;
   if (text.empty() && phase == EstimatorPhase::Waiting) text = "a vehicle at rest";
   if (phase == EstimatorPhase::Lost) {
-    text = "a new start: the estimate is lost (restart tern-estimator with the vehicle at rest)";
+    text = "a new start: the estimate is lost. Carry the vehicle to uav.start, and restart tern-estimator at rest";
   }
   const ProcessState state = text.empty() ? ProcessState::Ready : ProcessState::Waiting;
   const std::string more = troubles();

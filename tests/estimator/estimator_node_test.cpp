@@ -105,13 +105,14 @@ TEST(EstimatorNode, IgnoresOtherCamerasAndSaysThatItsOwnIsSilent) {
 }
 
 TEST(EstimatorNode, DoesNotUseFeaturesOnPredictedMovers) {
-  // A mover that may be anywhere: no feature is left. The static one hides nothing.
+  // A mover that may be anywhere ahead: no feature is left. The static one hides nothing.
   Track everywhere;
   everywhere.id = 3;
   everywhere.kind = TrackKind::Declared;
   everywhere.half_extents = Vec3::Constant(60.0);
   CubicPiece piece{Duration{60'000'000}, PowerCubic::Zero()};
   everywhere.motion.start = UTime{1'000'000};
+  piece.coefficients.col(3) = Vec3(61.2, 0.0, 0.0);
   everywhere.motion.pieces = {piece};
   everywhere.alpha = {Vec3::Zero()};
   NodeFlight flight, plain;

@@ -360,6 +360,8 @@ TEST(Masks, HideWhatMayLieOnAMover) {
   EXPECT_EQ(unmasked(frame, beside, {}).features.size(), 1u);
   EXPECT_EQ(unmasked(frame, behind, {}).features.size(), 1u);
   EXPECT_EQ(unmasked(frame, image, {}).features.size(), 0u);
+  const Masks around{{}, {box_around(Vec3::Zero(), Vec3::Constant(60.0))}};
+  EXPECT_EQ(unmasked(frame, around, {}).features.size(), 1u) << "it would hide every feature";
   EXPECT_EQ(unmasked(frame, near, {exp_rotation(Vec3(0.0, 0.0, 1.5)), Vec3::Zero()}).features.size(), 1u);
 }
 
