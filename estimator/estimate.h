@@ -79,7 +79,7 @@ std::string to_text(Trouble trouble);
 /// | Waiting | the vehicle has not rested for EstimatorConfig::rest_s                | none         |
 /// | AtRest  | it has, and still rests: biases and tilt are measured continuously    | at rest      |
 /// | Moving  | it has moved, or start() gave its state                               | the filter's |
-/// | Lost    | the IMU was silent for longer than kMaxImuGap in motion, or σ exceeds 1 km | none         |
+/// | Lost    | in motion no sample was usable for longer than kMaxImuGap, or σ exceeds 1 km | none       |
 ///
 /// Only start() ends Lost, because it gives a position.
 enum class EstimatorPhase : std::uint8_t { Waiting, AtRest, Moving, Lost };

@@ -16,7 +16,8 @@ namespace tern {
 inline constexpr Duration kMaxAhead{500'000};
 /// When no frames come, the filter follows the IMU this far behind. A frame may be this late.
 inline constexpr Duration kMaxDelay{250'000};
-/// Samples may be missing for this long in motion. A longer gap ends in EstimatorPhase::Lost.
+/// Samples may be missing for this long in motion. A longer gap ends in EstimatorPhase::Lost. So do samples in a row
+/// that span more than this and are all older than the newest one: the IMU's clock has stepped back.
 inline constexpr Duration kMaxImuGap{500'000};
 
 /// Rates (rad/s) and specific forces (m/s²) that a sample cannot exceed; 0: unknown.

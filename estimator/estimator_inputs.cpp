@@ -28,6 +28,17 @@ InputOutcome Estimator::State::refuse(Trouble trouble) {
   return InputOutcome::Refused;
 }
 
+/// When the IMU's clock steps back, its samples are refused until it has caught up. The motion of this time is unknown,
+/// and no gap shows between the samples that are used.
+InputOutcome Estimator::State::refuse_order(const ImuSample& sample) {
+  if (out_of_order && sample.at > *out_of_order) {
+    passed_out_of_order = passed_out_of_order + (sample.at - *out_of_order);
+  }
+  out_of_order = sample.at;
+  if (status.phase == EstimatorPhase::Moving && passed_out_of_order > kMaxImuGap) status.phase = EstimatorPhase::Lost;
+  return refuse(Trouble::ImuOrder);
+}
+
 void Estimator::State::begin(const NavState& state, const NavMatrix& P, UTime at) {
   status.phase = EstimatorPhase::Moving;
   filter.emplace(state, P);
@@ -55,8 +66,10 @@ ImuStep Estimator::State::step_of(const ImuSample& sample, const ImuRange& range
 
 InputOutcome Estimator::State::add(const ImuSample& sample, const ImuRange& range) {
   if (!is_usable(sample)) return refuse(Trouble::ImuNotFinite);
-  if (newest && sample.at <= newest->at) return refuse(Trouble::ImuOrder);
+  if (newest && sample.at <= newest->at) return refuse_order(sample);
   if (status.phase == EstimatorPhase::Lost) return InputOutcome::Refused;
+  out_of_order.reset();
+  passed_out_of_order = {};
   if (status.phase == EstimatorPhase::Moving && !newest) {
     // start() gave the state at a time; the first sample after it stands for the time since then.
     if (sample.at <= filter_at) return refuse(Trouble::ImuOrder);

@@ -42,6 +42,7 @@ struct Estimator::State {
 
   // Everything below serves the functions above.
   InputOutcome refuse(Trouble trouble);
+  InputOutcome refuse_order(const ImuSample& sample);
   void note(Trouble trouble);
   [[nodiscard]] ImuStep step_of(const ImuSample& sample, const ImuRange& range);
   void rest_on(const TimedStep& step);
@@ -60,6 +61,8 @@ struct Estimator::State {
   RestMeter rest;
   std::deque<TimedStep> imu;  // from the filter's time, or the end of the rest's mean, to the newest sample
   std::optional<ImuSample> newest;
+  std::optional<UTime> out_of_order;  // the newest sample that was refused for its time, since the last used one
+  Duration passed_out_of_order;       // the time that these samples span
   std::optional<Msckf> filter;
   UTime filter_at;
   AheadState ahead;

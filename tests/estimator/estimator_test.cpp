@@ -318,6 +318,23 @@ TEST(EstimatorTroubles, AGapIsBridgedAndALongOneIsLost) {
   EXPECT_FALSE(lost.estimate().has_value());
 }
 
+TEST(EstimatorTroubles, AnImuClockThatStepsBackIsALongGap) {
+  const Flight flight = short_flight();
+  const auto stepped = [&](Duration back) {
+    Estimator estimator = flight.estimator();
+    for (VioEvent event : flight.events(9)) {
+      if (event.t > 3.0) event.sample.at = event.sample.at - back;
+      give(estimator, event);
+      if (!event.is_frame && event.t > 1.0 && event.t < 2.0) {
+        EXPECT_EQ(estimator.add(event.sample), InputOutcome::Refused) << "each one comes twice";
+      }
+    }
+    return estimator;
+  };
+  EXPECT_EQ(stepped(Duration{0}).status().phase, EstimatorPhase::Moving);
+  EXPECT_EQ(stepped(Duration{1'000'000}).status().phase, EstimatorPhase::Lost);
+}
+
 TEST(EstimatorStart, WaitsForRestAndStaysThere) {
   Flight flight;
   flight.path.rest = 4.0;
