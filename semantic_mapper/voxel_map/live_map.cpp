@@ -97,6 +97,7 @@ bool LiveMap::set_octomap(const OctoMapFile& octomap) {
 }
 
 void LiveMap::free_start(const Body& body, const Vec3& p) {
+  start_ = p;
   const VoxelGrid& grid = base_.grid;
   const Box near =
       grown(Box(p - body.half_extents(), p + body.half_extents()), Vec3::Constant(kStartMargin * grid.resolution));
@@ -130,7 +131,10 @@ VoxelMap LiveMap::map(const Body& body, const Vec3& p) const {
     strengthen(i, is_occupied ? last_[i].label : VoxelLabel::Free,
                is_occupied ? last_[i].class_index : std::uint8_t{0});
   }
-  for (const std::int64_t voxel : voxels_stood_in(map.grid, map.labels, body, p)) {
+  const bool has_left = start_ && (p - *start_).norm() > kStartMargin * map.grid.resolution;
+  const auto freed =
+      has_left ? voxels_met(map.grid, map.labels, body, p) : voxels_stood_in(map.grid, map.labels, body, p);
+  for (const std::int64_t voxel : freed) {
     if (base_.labels[idx(voxel)] == VoxelLabel::Occupied) continue;
     map.labels[idx(voxel)] = VoxelLabel::Free;
     map.classes[idx(voxel)] = 0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/world/vehicle.h"
@@ -55,10 +56,11 @@ class LiveMap {
   [[nodiscard]] bool set_octomap(const OctoMapFile& octomap);
 
   /// Frees the unseen voxels within kStartMargin voxels of the box around the body at p. The vehicle starts there, and
-  /// its sensors may not see above and below it.
+  /// its sensors may not see above and below it. This is its start from then on.
   void free_start(const Body& body, const Vec3& p);
-  /// Returns the map as it is now. Voxels in which the body at p stands are free (voxels_stood_in), unless a file or a
-  /// region says that they are occupied. O(voxels).
+  /// Returns the map as it is now. Voxels in which the body at p stands are free, unless a file or a region says that
+  /// they are occupied. Within kStartMargin voxels of the start these are voxels_stood_in, elsewhere voxels_met.
+  /// O(voxels).
   [[nodiscard]] VoxelMap map(const Body& body, const Vec3& p) const;
   [[nodiscard]] const VoxelGrid& grid() const { return base_.grid; }
 
@@ -80,6 +82,7 @@ class LiveMap {
   std::vector<VoxelLabel> octomap_;    // of the newest OctoMap; empty: none has come
   std::vector<std::uint32_t> met_by_;  // the scan that met a voxel last: 2 n by a ray, 2 n + 1 by a point
   std::uint32_t scans_ = 0;
+  std::optional<Vec3> start_;  // W, m
 };
 
 /// Unseen space this near to the vehicle is free at its start, voxels.

@@ -31,7 +31,29 @@ std::vector<std::int64_t> voxels_within(double room, const VoxelGrid& grid, cons
   return voxels;
 }
 
+bool is_at_the_edge(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels, const Body& body, const Vec3& p) {
+  for (int k = 0; k < 27; ++k) {
+    const Vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    if (voxels_within(0.0, grid, labels, body, p + grid.resolution * step).empty()) return true;
+  }
+  return false;
+}
+
+/// Whether of several layers of the body only the lowest one overlaps voxels. @param overlapped  ascending
+bool stands_on(const std::vector<std::int64_t>& overlapped, const VoxelGrid& grid, const Body& body, const Vec3& p) {
+  const Box box = grown(body_box(body), Vec3::Constant(-kOverlapTolerance));
+  const int lowest = grid.cell_of(p + box.min()).z();
+  return grid.cell_of(p + box.max()).z() > lowest && grid.cell(overlapped.back()).z() == lowest;
+}
+
 }  // namespace
+
+std::vector<std::int64_t> voxels_met(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels, const Body& body,
+                                     const Vec3& p) {
+  const std::vector<std::int64_t> overlapped = voxels_within(0.0, grid, labels, body, p);
+  if (overlapped.empty() || !is_at_the_edge(grid, labels, body, p)) return {};
+  return stands_on(overlapped, grid, body, p) ? voxels_stood_in(grid, labels, body, p) : overlapped;
+}
 
 std::vector<std::int64_t> voxels_overlapped(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
                                             const Body& body, const Vec3& p) {
@@ -41,13 +63,7 @@ std::vector<std::int64_t> voxels_overlapped(const VoxelGrid& grid, const std::ve
 std::vector<std::int64_t> voxels_stood_in(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
                                           const Body& body, const Vec3& p) {
   const std::vector<std::int64_t> overlapped = voxels_within(0.0, grid, labels, body, p);
-  if (overlapped.empty()) return {};
-  bool is_at_the_edge = false;
-  for (int k = 0; k < 27 && !is_at_the_edge; ++k) {
-    const Vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    is_at_the_edge = voxels_within(0.0, grid, labels, body, p + grid.resolution * step).empty();
-  }
-  if (!is_at_the_edge) return {};
+  if (overlapped.empty() || !is_at_the_edge(grid, labels, body, p)) return {};
   std::vector<std::int64_t> voxels = voxels_within(0.5 * grid.resolution, grid, labels, body, p);
   const int lowest = grid.cell(overlapped.front()).z();  // ascending: z runs slowest
   const int highest = grid.cell(overlapped.back()).z();

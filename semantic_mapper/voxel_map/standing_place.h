@@ -21,6 +21,11 @@ namespace tern {
 std::vector<std::int64_t> voxels_stood_in(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
                                           const Body& body, const Vec3& p);
 
+/// The same for a body that has left its start. Room for a tube is added only on the ground: if the body's lowest layer
+/// alone overlaps occupied voxels. In flight a body beside a wall would open the wall.
+std::vector<std::int64_t> voxels_met(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels, const Body& body,
+                                     const Vec3& p);
+
 /// Returns the occupied voxels that the body at p overlaps, by index, ascending. O(voxels of the body).
 std::vector<std::int64_t> voxels_overlapped(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels,
                                             const Body& body, const Vec3& p);

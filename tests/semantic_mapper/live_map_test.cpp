@@ -209,6 +209,36 @@ TEST(LiveMap, TheVehicleDoesNotStandInItsMap) {
   EXPECT_EQ(stands.version, stands.compute_version());
 }
 
+TEST(LiveMap, InFlightTheVehicleFreesOfAWallOnlyWhatItOverlaps) {
+  LiveMap map(unknown_map({20, 3, 4}), {}, kRange);
+  std::vector<Vec3> wall;
+  for (int i = 0; i < 12; ++i) wall.emplace_back(7.25, 0.25 + 0.5 * (i % 3), 0.25 + 0.5 * (i / 3));
+  map.add(scan_to(wall, Vec3(1.25, 0.75, 0.9)));
+  const Vec3 beside(6.85, 0.75, 1.0);  // reaches 0.05 m into the wall
+  const auto occupied_at = [&](const Vec3& p) {
+    const VoxelMap labels = map.map(ball(), beside);
+    return labels.labels[idx(labels.grid.index(labels.grid.cell_of(p)))] == VoxelLabel::Occupied;
+  };
+  map.free_start(ball(), Vec3(1.25, 0.75, 0.9));
+  EXPECT_FALSE(occupied_at({7.25, 0.75, 1.25}));
+  EXPECT_TRUE(occupied_at({7.25, 0.25, 1.25}));
+  EXPECT_TRUE(occupied_at({7.25, 0.75, 1.75}));
+  map.free_start(ball(), beside);
+  EXPECT_FALSE(occupied_at({7.25, 0.25, 1.25})) << "at the start it needs room for a tube";
+}
+
+TEST(LiveMap, OnTheGroundThatItLandsOnTheVehicleHasRoomForATube) {
+  LiveMap map(unknown_map({20, 3, 4}), {}, kRange);
+  std::vector<Vec3> ground;
+  for (int i = 0; i < 60; ++i) ground.emplace_back(0.25 + 0.5 * (i % 20), 0.25 + 0.5 * (i / 20), 0.25);
+  map.add(scan_to(ground, Vec3(1.25, 0.75, 1.9)));
+  map.free_start(ball(), Vec3(1.25, 0.75, 0.6));
+  const VoxelMap landed = map.map(ball(), Vec3(6.75, 0.75, 0.65));
+  for (const double y : {0.25, 0.75, 1.25}) {
+    EXPECT_EQ(landed.labels[idx(landed.grid.index(landed.grid.cell_of({6.75, y, 0.25})))], VoxelLabel::Free);
+  }
+}
+
 TEST(LiveMap, AVehicleThatIsSaidToBeInAWallOfAFileDoesNotFreeIt) {
   VoxelMap walls = unknown_map({10, 1, 4});
   walls.labels[4] = VoxelLabel::Occupied;
