@@ -65,6 +65,9 @@ inline constexpr Duration kBoundsAhead{1'000'000};
 /// Tracks by sightings: a confirmed one is deleted after this many misses in sum, a tentative one after
 /// kMissesOfTentative. A frame of a lidar, which is three times as slow, counts kMissOfLidar.
 inline constexpr int kMissesToDelete = 4, kMissesOfTentative = 2, kMissOfLidar = 2;
+/// A track by sightings that was not seen for longer can be missed by every sensor that sees through it. These are
+/// five frames at 10 Hz.
+inline constexpr Duration kOthersMissAfter{500'000};
 /// A track by sightings that moves and was not seen for longer is deleted, wherever it may be.
 inline constexpr Duration kSightingCoast{3'000'000};
 /// The most tracks by sightings.
@@ -125,7 +128,8 @@ enum class UpdateOutcome {
 ///    are deleted. left_out() counts those of them that were detected.
 ///
 /// Only the sensor that detected a track last can miss it, because sensors see different things at different rates. A
-/// set *counts* for a track if it is from that sensor or detects the track.
+/// set *counts* for a track if it is from that sensor or detects the track. A track by sightings that is out of sight
+/// for kOthersMissAfter can be missed by every sensor.
 ///
 /// | state      | event                                                            | effect          |
 /// |------------|------------------------------------------------------------------|-----------------|
@@ -214,8 +218,9 @@ class Tracker {
   /// Notes the sensor of a frame. @return its velocity, m/s; 0 if it is not known
   [[nodiscard]] Vec3 note_frame(State& state, const SightingSet& frame) const;
   [[nodiscard]] std::vector<PredictedFaces> predicted_faces(const std::vector<TrackedObject>& objects) const;
-  /// Counts a miss of a track that was not found, if it was looked for. @param found  boxes of the tracks that were
-  void look_for(TrackedObject& object, const SensorView& view, const std::vector<Box>& found) const;
+  /// Counts a miss of a track that was not found, if it was looked for by a sensor that can miss it.
+  /// @param found  boxes of the tracks that were found
+  void look_for(TrackedObject& object, const SightingSet& frame, const std::vector<Box>& found) const;
   /// Limits a track's hidden ends by what a view saw to be empty.
   void limit_hidden_ends(TrackedObject& object, const SensorView& view) const;
   /// Updates a track with its sighting. @param common  variance of the frame at its place, m²

@@ -173,12 +173,13 @@ std::vector<PredictedFaces> Tracker::predicted_faces(const std::vector<TrackedOb
   return predicted;
 }
 
-void Tracker::look_for(TrackedObject& object, const SensorView& view, const std::vector<Box>& found) const {
+void Tracker::look_for(TrackedObject& object, const SightingSet& frame, const std::vector<Box>& found) const {
+  if (object.last_seen_by != frame.sensor_id && frame.at - object.last_seen <= kOthersMissAfter) return;
   const Box box = object.faces.completed(anchor(object));
-  if (!is_looked_through(view, box) && !contains(found, box)) return;
+  if (!is_looked_through(frame.view, box) && !contains(found, box)) return;
   ++object.age;
   object.hits <<= 1;
-  object.misses += view.kind == ViewKind::Spherical ? kMissOfLidar : 1;
+  object.misses += frame.view.kind == ViewKind::Spherical ? kMissOfLidar : 1;
 }
 
 void Tracker::limit_hidden_ends(TrackedObject& object, const SensorView& view) const {
@@ -215,7 +216,7 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     found.push_back(grown(object.faces.completed(anchor(object)), Vec3::Constant(kPieceMargin)));
   }
   for (std::size_t o = 0; o < state.sighted.size(); ++o) {
-    if (sighting_of[o] == kNoSighting) look_for(state.sighted[o], frame.view, found);
+    if (sighting_of[o] == kNoSighting) look_for(state.sighted[o], frame, found);
   }
   std::erase_if(state.sighted, [&](const TrackedObject& object) {
     const bool is_dead = is_lost(object, frame.at);

@@ -331,6 +331,37 @@ TEST(SightedTracks, LeaveTracksByDetectionsAlone) {
   EXPECT_EQ(beside.sighted().size(), 1u);
 }
 
+// A camera at 30 Hz sees past a pole that a lidar at 10 Hz sees until `lidar_until`.
+class APoleThatOnlyALidarSees : public ::testing::Test {
+ protected:
+  void watch(double from, double to, double lidar_until) {
+    for (int k = 0; from + k / kRate < to - 1e-9; ++k) {
+      const double t = from + k / kRate;
+      if (k % 3 == 0 && t < lidar_until) tracker_.update(lidar_.frame(at_seconds(t), kEye, 0.0, {pole_, wall_}), kEye);
+      tracker_.update(camera_.frame(at_seconds(t + 0.01), kEye, 0.0, {wall_}), kEye);
+    }
+  }
+  [[nodiscard]] bool is_known() const {
+    return track_at(tracker_.predict(tracker_.newest()), pole_.center(), tracker_.newest()) != nullptr;
+  }
+
+  const Box pole_{Vec3(5, -0.2, 0), Vec3(5.4, 0.2, 4)}, wall_{Vec3(9, -20, -10), Vec3(9.5, 20, 10)};
+  Tracker tracker_{TrackerConfig{}};
+  RenderingSensor camera_ = RenderingSensor::camera(), lidar_ = RenderingSensor::lidar();
+};
+
+TEST_F(APoleThatOnlyALidarSees, StaysWhileTheCameraSeesPastIt) {
+  for (double t = 0.0; t < 3.0; t += 0.1) {
+    watch(t, t + 0.1, 3.0);
+    ASSERT_TRUE(is_known()) << "after " << t + 0.1 << " s";
+  }
+}
+
+TEST_F(APoleThatOnlyALidarSees, EndsSoonAfterTheLidarsLastFrame) {
+  watch(0.0, 3.0, 2.0);
+  EXPECT_FALSE(is_known());
+}
+
 TEST(LookedFor, IsThroughOnlyIfMostOfWhatIsInViewIsSeenThrough) {
   RenderingSensor camera = RenderingSensor::camera();
   const Box box = box_around(Vec3(5, 0, 2), Vec3::Constant(0.4));
