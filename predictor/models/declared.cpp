@@ -45,7 +45,8 @@ std::vector<Region> regions_at(const std::vector<Track>& declared, UTime at) {
   return regions;
 }
 
-bool is_explained(const std::vector<Region>& regions, std::int64_t id, const Box& box, const Vec3& margin) {
+bool is_explained(const std::vector<Region>& regions, std::int64_t id, const Box& box, const Vec3& by_sigma) {
+  const Vec3 margin = by_sigma.cwiseMin(kMaxExplainedMargin);
   return std::any_of(regions.begin(), regions.end(),
                      [&](const Region& region) { return region.id == id || grown(region.box, margin).contains(box); });
 }

@@ -128,6 +128,32 @@ TEST(WithoutExplained, KeepsADetectionThatSticksOutOfTheDeclaredBox) {
   EXPECT_FALSE(is_dropped(0.0, 1.4)) << "larger than the robot";
 }
 
+// Half a metre of σ would make a margin of 2.8 m.
+TEST(WithoutExplained, KeepsAnUncertainDetectionOfAPersonBesideTheDeclaredBox) {
+  Track robot;
+  robot.half_extents = Vec3::Constant(0.6);
+  robot.motion.start = at_seconds(10.0);
+  robot.motion.pieces = {CubicPiece{Duration{1'000'000}, PowerCubic::Zero()}};
+  robot.alpha = {Vec3::Zero()};
+  ObservationSet set;
+  SightingSet sightings;
+  set.at = sightings.at = at_seconds(10.5);
+  Detection person;
+  person.position = Vec3(2.5, 0.0, 0.0);
+  person.half_extents = Vec3::Constant(0.3);
+  person.variance = Vec3::Constant(0.5 * 0.5);
+  set.detections = {person};
+  Sighting seen;
+  seen.lower = person.position - person.half_extents;
+  seen.upper = person.position + person.half_extents;
+  seen.lower_sigma = seen.upper_sigma = Vec3::Constant(0.6);
+  sightings.sightings = {seen};
+  EXPECT_EQ(without_explained(set, {robot}).detections.size(), 1u);
+  EXPECT_EQ(without_explained(sightings, {robot}).sightings.size(), 1u);
+  set.detections[0].position.x() = 0.5;
+  EXPECT_TRUE(without_explained(set, {robot}).detections.empty()) << "it sticks out by 0.2 m";
+}
+
 TEST(Merged, KeepsAnEstimateThatSticksOutOfTheDeclaredBox) {
   Rng rng(8);
   const Track declared = random_track(rng, 5);
