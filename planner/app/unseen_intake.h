@@ -11,13 +11,25 @@
 
 namespace tern {
 
+/// A vehicle takes off if its request starts within kStartReach of its start, and its committed trajectory is no longer
+/// than kLongestRest, m. A hover's noise makes it move a little.
+inline constexpr double kStartReach = 1.0, kLongestRest = 0.1;
+
 /// Subscribes to OBSTACLE_SIGHTINGS. All calls come from the receiving thread.
 class UnseenIntake {
  public:
   /// @param start  of the vehicle, where it takes off, W
   UnseenIntake(Bus& bus, const UnseenMovers& movers, const Vec3& start);
 
-  /// Discards all knowledge if the request comes from another vehicle than the requests before.
+  /// Adapts the knowledge to the vehicle of a request.
+  ///
+  /// | request                                                     | effect                                       |
+  /// |-------------------------------------------------------------|----------------------------------------------|
+  /// | the first one, at take-off                                  | none                                         |
+  /// | the first one, elsewhere: the planner was started in flight | all is forgotten, and nothing is clear       |
+  /// | of another executor, at take-off                            | all is forgotten, and its take-off is clear  |
+  /// | of another executor, elsewhere                              | all is forgotten, and nothing is clear       |
+  /// | elsewhere, while there is no picture                        | that picture will find nothing clear         |
   void set_vehicle(const HorizonRequest& request);
   /// Returns what is known now.
   [[nodiscard]] std::shared_ptr<const UnseenKnowledge> snapshot() const;

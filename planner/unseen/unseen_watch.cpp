@@ -24,7 +24,10 @@ double upright_radius(const Body& body) { return body.vertices.topRows<2>().colw
 UnseenWatch::UnseenWatch(const UnseenMovers& movers, const Vec3& start) : movers_(movers), start_(start.head<2>()) {}
 
 bool UnseenWatch::add(const SightingSet& frame) {
-  const auto used = used_.find({frame.header.name.sender_epoch_us, frame.sensor_id});
+  const std::pair sensor{frame.header.name.sender_epoch_us, frame.sensor_id};
+  std::erase_if(used_, [&](const auto& entry) { return known_.at - entry.second > kSensorForgotten; });
+  const auto used = used_.find(sensor);
+  if (used == used_.end() && used_.size() >= kMostSensors) return false;
   if (used != used_.end() && frame.at - used->second < kPicturePeriod) return false;
   SightFan fan = level_fan(frame.view);
   if (fan.reach.empty()) return false;
@@ -36,7 +39,7 @@ bool UnseenWatch::add(const SightingSet& frame) {
   known_.at = at;
   known_.last = frame.header.name;
   ++known_.pictures;
-  used_[{frame.header.name.sender_epoch_us, frame.sensor_id}] = frame.at;
+  used_[sensor] = frame.at;
   return true;
 }
 

@@ -39,6 +39,7 @@ double upright_radius(const Body& body);
 /// | frame                                                          | effect                                        |
 /// |----------------------------------------------------------------|-----------------------------------------------|
 /// | its rows are not level (level_fan)                             | not used                                      |
+/// | of one more sensor than kMostSensors                           | not used                                      |
 /// | sooner than kPicturePeriod after the sensor's last used one    | not used: it would cost more than it shows    |
 /// | the first used one, within the clear radius of the start       | a field with the clear ball of take-off begins |
 /// | the first used one, elsewhere                                  | a field begins that knows nothing             |
@@ -47,6 +48,9 @@ double upright_radius(const Body& body);
 class UnseenWatch {
  public:
   static constexpr Duration kPicturePeriod{90'000};
+  /// Frames of so many sensors are used. One whose last used frame is older than this does not count.
+  static constexpr std::size_t kMostSensors = 64;
+  static constexpr Duration kSensorForgotten{10'000'000};
   /// The window follows the sensor in steps of this many cells.
   static constexpr int kWindowStep = 8;
 

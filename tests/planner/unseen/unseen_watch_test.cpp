@@ -55,6 +55,16 @@ TEST(UnseenWatch, UsesASensorAtMostOncePerPeriodAndNoTiltedFrame) {
   EXPECT_EQ(watch.knowledge().at, kZero + kTick);
 }
 
+TEST(UnseenWatch, UsesFramesOfABoundedNumberOfSensors) {
+  UnseenWatch watch(UnseenMovers{}, Vec3::Zero());
+  constexpr int kMost = static_cast<int>(UnseenWatch::kMostSensors);
+  for (int sensor = 0; sensor < kMost; ++sensor) EXPECT_TRUE(watch.add(open_frame(kZero, sensor, Vec2(0, 0))));
+  EXPECT_FALSE(watch.add(open_frame(kZero, kMost, Vec2(0, 0)))) << "an id per frame";
+  UTime at = kZero + UnseenWatch::kSensorForgotten + kTick;
+  EXPECT_TRUE(watch.add(open_frame(at, 0, Vec2(0, 0))));
+  EXPECT_TRUE(watch.add(open_frame(at, kMost, Vec2(0, 0)))) << "the others are silent";
+}
+
 TEST(UnseenWatch, ItsWindowFollowsTheSensorAndKeepsWhatItKnew) {
   UnseenWatch watch(UnseenMovers{}, Vec3::Zero());
   UTime at = kZero;
