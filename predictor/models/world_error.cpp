@@ -17,7 +17,7 @@ void WorldError::add(const Odometry& odometry) {
 }
 
 void WorldError::add_vehicle(const Vec3& p, UTime at) {
-  if (!odometry_) return;
+  if (!odometry_ || is_stale(at)) return;
   apart_ = (p - position_ - (at - odometry_->at).seconds() * velocity_).norm();
 }
 
@@ -36,10 +36,16 @@ double WorldError::margin(const Vec3& x) const {
   return std::ceil(width / kStep) * kStep;
 }
 
+double WorldError::drift(UTime at) const {
+  if (!is_stale(at)) return 0.0;
+  const double drift = kDriftSpeed * (at - odometry_->at - kFresh).seconds();
+  return std::min(kMostDrift, std::ceil(drift / kStep) * kStep);
+}
+
 void WorldError::widen(std::vector<Track>& tracks, UTime at) const {
   if (!odometry_) return;
   for (Track& track : tracks) {
-    const double by = margin(track.motion.sample(at).p);
+    const double by = margin(track.motion.sample(at).p) + drift(at);
     for (Vec3& alpha : track.alpha) alpha += Vec3::Constant(by);
   }
 }

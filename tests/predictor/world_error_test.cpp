@@ -79,6 +79,41 @@ TEST(WorldError, ACorrectionThatIsStillFollowedCounts) {
   EXPECT_NEAR(error.margin(Vec3(5, 0, 1)), 0.45, 1e-9);
 }
 
+/// An estimator that has ended at 4 m/s, or is lost.
+TEST(WorldError, OfAStaleEstimateGrowsByTheStatedDriftAndEnds) {
+  for (const bool is_lost : {true, false}) {
+    WorldError error;
+    Odometry odometry = odometry_at(Vec3(5, 0, 1));
+    odometry.v_OB = Vec3(4, 0, 0);
+    error.add(odometry);
+    UTime at = odometry.at;
+    const auto widened = [&] {
+      Track track;
+      track.motion.pieces.assign(1, CubicPiece{Duration{500'000}, PowerCubic::Zero()});
+      track.alpha = {Vec3::Zero()};
+      std::vector<Track> tracks{track};
+      error.widen(tracks, at);
+      return tracks[0].alpha[0].x();
+    };
+    for (int k = 1; k <= 300; ++k) {
+      at = odometry.at + Duration{k * 100'000};
+      if (is_lost) {
+        Odometry lost = odometry;
+        lost.at = at;
+        lost.state = EstimatorState::Lost;
+        error.add(lost);
+      }
+      error.add_vehicle(Vec3(5, 0, 1) + std::min(0.1 * k, 1.0) * Vec3(4, 0, 0), at);  // it brakes after a second
+      EXPECT_EQ(error.is_stale(at), k > 3);
+      const double drift = std::clamp(WorldError::kDriftSpeed * (0.1 * k - 0.3), 0.0, WorldError::kMostDrift);
+      ASSERT_NEAR(widened(), drift, WorldError::kStep + 1e-9) << "after " << 0.1 * k << " s";
+    }
+    odometry.at = at;
+    error.add(odometry);
+    EXPECT_LT(widened(), 0.1);
+  }
+}
+
 TEST(WorldError, EveryPieceOfATrackIsWidened) {
   WorldError error;
   Odometry odometry = odometry_at(Vec3(0, 0, 1));
