@@ -46,22 +46,12 @@ void PredictorNode::on_declared(const TrackSet& batch) {
   have_input(kDeclaredInput, declared.made_at);
 }
 
-bool PredictorNode::is_active_sender(const SensorFrame& frame, UTime now) {
-  std::erase_if(senders_, [now](const auto& entry) { return now - entry.second.at > kSensorSilence; });
-  if (senders_.size() >= kMaxInputs && !senders_.contains(frame.sensor_id())) return true;
-  const std::int64_t epoch_us = frame.header().name.sender_epoch_us;
-  Sender& sender = senders_.try_emplace(frame.sensor_id(), Sender{epoch_us, now}).first->second;
-  if (sender.epoch_us == epoch_us) sender.at = now;
-  return sender.epoch_us == epoch_us;
-}
-
 void PredictorNode::on_frame(SensorFrame frame) {
   const UTime now = bus_.clock().now();
-  if (!is_active_sender(frame, now)) {
+  const std::string refusal = senders_.refusal(frame.sensor_id(), frame.header().name.sender_epoch_us, now);
+  if (!refusal.empty()) {
     frame.count_late(bus_);
-    return watch_.trouble(
-        "senders",
-        frame.input_name() + ": a second process sends sets, which are not used (do two sensors have one id?)", now);
+    return watch_.trouble("senders", frame.input_name() + ": " + refusal, now);
   }
   if (frame.at() + kMaxAge < now) {
     frame.count_late(bus_);
@@ -71,7 +61,16 @@ void PredictorNode::on_frame(SensorFrame frame) {
                           now);
   }
   frame.remove_explained(declared_);
+  if (waiting_.size() >= kMaxWaitingSets) {
+    skip(waiting_.front().frame, now);
+    waiting_.pop_front();
+  }
   waiting_.push_back({std::move(frame), bus_.received()});
+}
+
+void PredictorNode::skip(const SensorFrame& frame, UTime now) {
+  frame.count_late(bus_);
+  watch_.trouble("overloaded", frame.input_name() + ": overloaded, sets are skipped for newer ones", now);
 }
 
 void PredictorNode::use_waiting() {
@@ -84,8 +83,7 @@ void PredictorNode::use_waiting() {
       return other.frame.sensor_id() == frame.sensor_id() && other.frame.at() > frame.at();
     });
     if (now - oldest.arrived > kMaxWait && is_replaced) {
-      frame.count_late(bus_);
-      watch_.trouble("overloaded", frame.input_name() + ": overloaded, sets are skipped for newer ones", now);
+      skip(frame, now);
     } else {
       use(std::move(oldest.frame));
     }
@@ -100,6 +98,9 @@ void PredictorNode::use(SensorFrame frame) {
                                          unusable, kMaxDeviation);
     watch_.trouble("unusable", text, now);
   }
+  if (const std::size_t foreign = frame.remove_foreign_ids(); foreign > 0) {
+    watch_.trouble("ids", fmt::format("{}: {} ids from {} on are not used", input, foreign, kFirstOwnTrackId), now);
+  }
   const UpdateOutcome outcome = frame.give_to(tracker_, vehicle_);
   if (outcome == UpdateOutcome::Used) {
     if (const std::int32_t left_out = tracker_.left_out(); left_out > 0) {
@@ -111,6 +112,9 @@ void PredictorNode::use(SensorFrame frame) {
     return have_input(input, frame.at());
   }
   frame.count_late(bus_);
+  if (outcome == UpdateOutcome::TooCostly) {
+    watch_.trouble("overloaded", input + ": overloaded, sets that come out of order are not used", now);
+  }
   if (outcome == UpdateOutcome::Repeated) {
     const std::string text = input + ": two sets of one time, the second is not used (do two sensors have one id?)";
     watch_.trouble("repeated", text, now);
@@ -162,6 +166,8 @@ void PredictorNode::publish(UTime now) {
   std::vector<Track> declared = trimmed(declared_, now, horizon);
   world_error_.widen(declared, now);
   const bool has_margin = world_error_.is_known() && !declared.empty();
+  if (has_margin && world_error_.is_stale(now))
+    watch_.trouble("odometry", "no valid ODOMETRY: the margins of declared motions grow", now);
   set.tracks = merged(std::move(declared), tracker_.predict(now, is_bounds_due ? &bounds : nullptr), now);
   const bool estimated = std::any_of(set.tracks.begin(), set.tracks.end(),
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });

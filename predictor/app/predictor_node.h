@@ -11,6 +11,7 @@
 
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
+#include "predictor/app/active_senders.h"
 #include "predictor/app/input_watch.h"
 #include "predictor/app/predictor_config.h"
 #include "predictor/app/sensor_frame.h"
@@ -23,11 +24,10 @@
 namespace tern {
 
 inline constexpr Duration kBoundsPeriod{500'000};
-/// Another process may send a sensor's sets after the first one was silent for this long.
-inline constexpr Duration kSensorSilence{1'000'000};
-
 /// Observation sets that waited longer in this process are skipped if newer ones wait.
 inline constexpr Duration kMaxWait{100'000};
+/// The most observation sets that wait: some 0.5 s of sixteen cameras. The oldest is skipped for one more.
+inline constexpr std::size_t kMaxWaitingSets = 256;
 /// step() begins no further observation set after this time.
 inline constexpr Duration kMaxWorkPerStep{20'000};
 /// The oldest observation set that is used, by the clock. Sensors are never that late: its time is in another unit.
@@ -41,10 +41,11 @@ inline constexpr Duration kMaxAge{10'000'000};
 /// - A sensor sends detections (OBSTACLE_OBSERVATIONS) or sightings (OBSTACLE_SIGHTINGS). Below, a message of either
 ///   kind is an observation set.
 /// - Observation sets are counted as late and not used if they are too old, repeated, or sent by a second process. The
-///   bus rejects sets with a time in the future.
+///   same holds while kMaxSensors other sensors send. The bus rejects sets with a time in the future.
 /// - Observation sets wait until step(). One that waited longer than kMaxWait is skipped if a newer one of its sensor
-///   waits, and counted as late. step() takes kMaxWorkPerStep and one set at most, so that heartbeats and signals wait
-///   no longer, however many sets have arrived.
+///   waits, or kMaxWaitingSets do, and counted as late. step() takes kMaxWorkPerStep and one set at most, so that
+///   heartbeats and signals wait no longer, however many sets have arrived. A set out of order may take some 150 ms
+///   (kMaxReplayed).
 /// - A track or message that every receiver would refuse is not sent but counted, and HEARTBEAT names its field.
 /// - With ODOMETRY, declared tracks get a margin for the error of the vehicle's pose in W (models/world_error.h).
 ///   Estimated tracks get none, because the vehicle sees them relative to itself.
@@ -70,8 +71,8 @@ class PredictorNode final : public Node {
   void on_frame(SensorFrame frame);
   void use_waiting();
   void use(SensorFrame frame);
-  /// True if the sender is the active one of its sensor: one process per sensor_id, as on a channel with one sender.
-  bool is_active_sender(const SensorFrame& frame, UTime now);
+  /// Counts and reports an observation set that is skipped for a newer one.
+  void skip(const SensorFrame& frame, UTime now);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
   /// Publishes the bounds of the set's estimated tracks, in its order. @param bounds  ascending by id
@@ -87,11 +88,7 @@ class PredictorNode final : public Node {
   Bus& bus_;
   PredictorConfig config_;
   InputWatch watch_;
-  struct Sender {
-    std::int64_t epoch_us = 0;
-    UTime at;
-  };
-  std::map<std::int32_t, Sender> senders_;  // by sensor; silent ones are removed
+  ActiveSenders senders_;
   struct Waiting {
     SensorFrame frame;
     UTime arrived;

@@ -53,6 +53,11 @@ std::size_t SensorFrame::remove_unusable() {
   return std::visit([](auto& of) { return tern::remove_unusable(of); }, set);
 }
 
+std::size_t SensorFrame::remove_foreign_ids() {
+  ObservationSet* detections = std::get_if<ObservationSet>(&set);
+  return detections != nullptr ? tern::remove_foreign_ids(*detections) : 0;
+}
+
 UpdateOutcome SensorFrame::give_to(Tracker& tracker, const std::optional<Vec3>& vehicle) const {
   if (const SightingSet* sightings = sightings_of(*this))
     return tracker.update(*sightings, vehicle.value_or(sightings->view.sensor_position));

@@ -33,6 +33,7 @@ struct SensorFrame {
   void remove_explained(const std::vector<Track>& declared);
   /// Removes what is too uncertain to use (usable.h). @return its number
   std::size_t remove_unusable();
+  std::size_t remove_foreign_ids();
   /// @param vehicle  W, m; the sensor's place if it is not known
   UpdateOutcome give_to(Tracker& tracker, const std::optional<Vec3>& vehicle) const;
 };

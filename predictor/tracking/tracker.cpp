@@ -73,6 +73,9 @@ UpdateOutcome Tracker::insert(Step taken) {
   const auto place =
       std::ranges::lower_bound(steps_, key(observations), {}, [](const Step& a) { return key(a.observations); });
   if (place != steps_.end() && key(place->observations) == key(observations)) return UpdateOutcome::Repeated;
+  const State& state = newest_state();
+  const auto later = static_cast<std::size_t>(steps_.end() - place);
+  if (later * (1 + state.objects.size() + state.sighted.size()) > kMaxReplayed) return UpdateOutcome::TooCostly;
   taken.after = std::move(spare_);
   auto step = steps_.insert(place, std::move(taken));
   for (; step != steps_.end(); ++step) {
@@ -87,6 +90,12 @@ UpdateOutcome Tracker::insert(Step taken) {
   return UpdateOutcome::Used;
 }
 
+void Tracker::note_view(State& state, const SensorRecord& view) {
+  std::erase_if(state.views, [&](const SensorRecord& record) { return record.sensor_id == view.sensor_id; });
+  if (state.views.size() >= kMaxSensors) state.views.erase(state.views.begin());
+  state.views.push_back(view);
+}
+
 void Tracker::advance(State& state, const Step& step) const {
   if (step.sightings) {
     advance(state, *step.sightings, step.vehicle);
@@ -97,8 +106,7 @@ void Tracker::advance(State& state, const Step& step) const {
 
 void Tracker::advance(State& state, const ObservationSet& observations, const Vec3& vehicle) const {
   const UTime at = observations.at;
-  std::erase_if(state.views, [&](const SensorRecord& view) { return view.sensor_id == observations.sensor_id; });
-  state.views.push_back({observations.sensor_id, at, observations.range_m, observations.sensor_position, 0});
+  note_view(state, {observations.sensor_id, at, observations.range_m, observations.sensor_position, 0});
   predict_to(state, at);
   const std::vector<Detection>& detections = observations.detections;
   const Matching matching = match(

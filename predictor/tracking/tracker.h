@@ -31,6 +31,8 @@ inline constexpr double kJumpGate = 100.0;
 inline constexpr double kSizeShare = 0.25, kMaxSizeCost = 20.0;
 /// Observation sets are put in order if they are at most this much older than the newest.
 inline constexpr Duration kReorderWindow{300'000};
+/// A set out of order is used if all later sets together update at most so many tracks again, which takes some 150 ms.
+inline constexpr std::size_t kMaxReplayed = 10'000;
 /// Half-extents grow at once to the largest seen, and shrink by this share of the difference per detection.
 inline constexpr double kExtentShrink = 0.1;
 /// The resting hypothesis is a constant velocity with this √ of the spectral density of acceleration, m/s^1.5.
@@ -70,6 +72,8 @@ inline constexpr int kMissesToDelete = 4, kMissesOfTentative = 2, kMissOfLidar =
 inline constexpr Duration kOthersMissAfter{500'000};
 /// A track by sightings that moves and was not seen for longer is deleted, wherever it may be.
 inline constexpr Duration kSightingCoast{3'000'000};
+/// The newest sets of so many sensors are kept.
+inline constexpr std::size_t kMaxSensors = 64;
 /// The most tracks by sightings.
 inline constexpr std::size_t kMaxSightedTracks = 400;
 /// The variance, m², of a position along an axis on which a sighting has none.
@@ -115,8 +119,9 @@ struct ExistenceRecord {
 
 enum class UpdateOutcome {
   Used,
-  TooOld,    ///< older than the newest set by more than kReorderWindow
-  Repeated,  ///< a set of that sensor and time was used already
+  TooOld,     ///< older than the newest set by more than kReorderWindow
+  TooCostly,  ///< later sets would have to be used again for more tracks than kMaxReplayed in sum
+  Repeated,   ///< a set of that sensor and time was used already
 };
 
 /// One update does this, in order:
@@ -197,7 +202,7 @@ class Tracker {
   };
   struct State {
     UTime at;
-    std::vector<SensorRecord> views;  // one per sensor
+    std::vector<SensorRecord> views;  // one per sensor, the newest last
     std::int64_t next_id = kFirstOwnTrackId;
     std::vector<TrackedObject> objects, sighted;
     RestRecord rest;
@@ -215,6 +220,8 @@ class Tracker {
   void advance(State& state, const ObservationSet& observations, const Vec3& vehicle) const;
   void advance(State& state, const Step& step) const;
   void advance(State& state, const SightingSet& frame, const Vec3& vehicle) const;
+  /// Replaces the record of a sensor, and forgets the sensor that is silent longest if there are too many.
+  static void note_view(State& state, const SensorRecord& view);
   /// Notes the sensor of a frame. @return its velocity, m/s; 0 if it is not known
   [[nodiscard]] Vec3 note_frame(State& state, const SightingSet& frame) const;
   [[nodiscard]] std::vector<PredictedFaces> predicted_faces(const std::vector<TrackedObject>& objects) const;

@@ -148,14 +148,13 @@ bool Tracker::is_lost(const TrackedObject& object, UTime at) const {
 
 Vec3 Tracker::note_frame(State& state, const SightingSet& frame) const {
   Vec3 sensor_velocity = Vec3::Zero();
-  std::erase_if(state.views, [&](const SensorRecord& record) {
-    if (record.sensor_id != frame.sensor_id) return false;
-    const Duration since = frame.at - record.at;
+  const auto last = std::ranges::find(state.views, frame.sensor_id, &SensorRecord::sensor_id);
+  if (last != state.views.end()) {
+    const Duration since = frame.at - last->at;
     if (since > Duration{} && since < kVelocitySpan)
-      sensor_velocity = (frame.view.sensor_position - record.from) / since.seconds();
-    return true;
-  });
-  state.views.push_back({frame.sensor_id, frame.at, frame.view.range_m, frame.view.sensor_position, 0});
+      sensor_velocity = (frame.view.sensor_position - last->from) / since.seconds();
+  }
+  note_view(state, {frame.sensor_id, frame.at, frame.view.range_m, frame.view.sensor_position, 0});
   return sensor_velocity;
 }
 

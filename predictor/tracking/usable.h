@@ -1,10 +1,11 @@
-// Removes detections that are too uncertain to use.
+// Removes what is too uncertain to use, and ids that are not allowed.
 #pragma once
 
 #include <cstddef>
 
 #include "core/world/observation.h"
 #include "core/world/sighting.h"
+#include "predictor/tracking/tracker.h"
 
 namespace tern {
 
@@ -24,6 +25,18 @@ inline std::size_t remove_unusable(SightingSet& set) {
   return std::erase_if(set.sightings, [](const Sighting& s) {
     return !(s.lower_sigma.maxCoeff() <= kMaxDeviation && s.upper_sigma.maxCoeff() <= kMaxDeviation);
   });
+}
+
+/// Removes ids that only the predictor's own tracks may have (kFirstOwnTrackId): these detections are matched by their
+/// place. @return their number
+inline std::size_t remove_foreign_ids(ObservationSet& set) {
+  std::size_t removed = 0;
+  for (Detection& detection : set.detections) {
+    if (detection.track_id < kFirstOwnTrackId) continue;
+    detection.track_id = kNoTrackId;
+    ++removed;
+  }
+  return removed;
 }
 
 }  // namespace tern

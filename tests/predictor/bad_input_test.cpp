@@ -230,6 +230,34 @@ TEST_F(BadInput, TimesInSecondsAreSaidAndNotUsed) {
   EXPECT_EQ(unheard(), 0);
 }
 
+TEST_F(BadInput, IdsOfThePredictorsOwnTracks) {
+  const Path left = straight(Vec3(0, 3, 1), Vec3(1, 0, 0)), right = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
+  // The left one has no id until the right one comes, which has the id that the left one's track was given.
+  watch(1.0, [&](double t) { return std::vector{detection_of(left(t), kNoise, rng_)}; });
+  watch(2.0, [&](double t) {
+    return std::vector{detection_of(left(t), kNoise, rng_), detection_of(right(t), kNoise, rng_, kFirstOwnTrackId),
+                       detection_of(right(t) - Vec3(0, 3, 0), kNoise, rng_, kFirstOwnTrackId + 1)};
+  });
+  EXPECT_EQ(unheard(), 0);
+  EXPECT_TRUE(says("2 ids from 1000000000 on are not used")) << node_->health().waiting_for;
+  EXPECT_FALSE(says("not sent"));
+  EXPECT_GE(held(left, 1.5, 3.0, 0.5), 0.99);
+  EXPECT_GE(held(right, 1.5, 3.0, 0.5), 0.99);
+}
+
+TEST_F(BadInput, AnIdOfASensorPerFrame) {
+  const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
+  int id = 1;
+  watch(1.0, [&](double t) {
+    for (int k = 0; k < 10; ++k) frame(runner_.now() - kLatency, {}, id++);
+    return std::vector{detection_of(walker(t), kNoise, rng_)};
+  });
+  runner_.run(runner_.now() + Duration{100'000});
+  EXPECT_GE(late(), 300 - static_cast<int>(kMaxSensors)) << "the first sensors are used, the others counted";
+  EXPECT_TRUE(says("not used, since 64 sensors send already")) << node_->health().waiting_for;
+  EXPECT_GE(held(walker, 0.5, 1.0, 0.5), 0.99);
+}
+
 TEST_F(BadInput, IdsThatSwap) {
   for (const double apart : {0.6, 1.0, 3.0}) {
     const double from = now_s();

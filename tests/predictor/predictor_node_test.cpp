@@ -494,6 +494,17 @@ TEST_F(Backlog, SetsThatWaitedTooLongAreSkippedForNewerOnes) {
   EXPECT_GE(node_.next_wakeup(), clock_.now()) << "none waits any longer";
 }
 
+TEST_F(Backlog, HoldsABoundedNumberOfSets) {
+  for (std::size_t k = 0; k < kMaxWaitingSets; ++k) {
+    ObservationSet set;
+    set.at = clock_.now();
+    clock_.advance(Duration{1});
+    sensor_.publish(channels::kObstacleObservations, set);
+  }
+  drain(*lcm_, 1000);
+  EXPECT_EQ(late(), 5);
+}
+
 TEST_F(Backlog, AStepEndsAfterItsTimeAndTheRestFollows) {
   clock_.take(Duration{kMaxWorkPerStep.us / 3 + 1});  // a set looks at the clock three times
   node_.step(clock_.now());

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "predictor/tracking/track_bound.h"
 #include "predictor/tracking/tracker.h"
 #include "tests/predictor/simulated_motion.h"
 
@@ -127,6 +128,35 @@ TEST(TrackerOfTwoSensors, ThatMeasureAtTheSameTimesPredictWhereAnObstacleWillBe)
   };
   EXPECT_LT(error_after({kLidar}), 0.5);
   EXPECT_LT(error_after({kLidar, kCamera}), 0.5);
+}
+
+/// A set out of order has all later ones used again.
+TEST(TrackerOfTwoSensors, ASetOutOfOrderIsUsedUnlessItCostsTooMuch) {
+  for (const bool is_costly : {false, true}) {
+    Rng rng(16);
+    Tracker tracker(TrackerConfig{});
+    std::vector<Detection> detections;
+    for (int k = 0; k < 600; ++k) detections.push_back(detection_of(Vec3(5.0 * k, 0.0, 1.0), 0.01, rng));
+    const int later = is_costly ? 20 : 10;
+    for (int k = 0; k <= later; ++k) tracker.update(frame(kCamera, 0.01 * k, detections));
+    const UpdateOutcome outcome = tracker.update(frame(kLidar, 0.005, {}));
+    EXPECT_EQ(outcome, is_costly ? UpdateOutcome::TooCostly : UpdateOutcome::Used);
+    EXPECT_EQ(tracker.update(frame(kLidar, 0.01 * later, detections)), UpdateOutcome::Used) << "in order";
+  }
+}
+
+/// A wall's anchor may be far away while its face is near.
+TEST(TrackBound, KeepsTheTracksWithTheNearestBoxes) {
+  std::vector<TrackedObject> objects(3);
+  objects[0].position = Vec3(30.0, 2.5, 0.0);
+  objects[0].half_extents = Vec3(30.0, 0.5, 2.0);
+  objects[1].position = Vec3(0.0, 5.0, 0.0);
+  objects[2].position = Vec3(0.0, 4.0, 0.0);
+  for (std::size_t k = 0; k < objects.size(); ++k) objects[k].id = static_cast<std::int64_t>(k);
+  EXPECT_EQ(bound_tracks(objects, 0, kFirstOwnTrackId, 2, Vec3::Zero(), UTime{1}), 0);
+  ASSERT_EQ(objects.size(), 2u);
+  EXPECT_EQ(objects[0].id, 0);
+  EXPECT_EQ(objects[1].id, 2);
 }
 
 }  // namespace
