@@ -9,7 +9,7 @@ namespace tern {
 namespace {
 
 /// Stands for `without limit`, m: no depth sensor measures as far.
-constexpr double kFarthest = 1e3;
+constexpr double kFarthest = 500.0;
 constexpr std::int16_t kFarMarker = std::numeric_limits<std::int16_t>::max();
 /// Depths that differ by a smaller share are the same: a cloud that is turned is rounded. A unit of 32767 is 3e-5.
 constexpr float kRounding = 1e-5F;

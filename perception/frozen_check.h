@@ -21,7 +21,7 @@ struct MeasuredDepths {
 
   /// Adds the depths of a message. A depth of 32767 units, or from the range on, is no surface.
   void add(const DepthImage& part);
-  /// The same. Without a range, a point from 1 km on is no surface.
+  /// The same. Without a range, a point from 500 m on is no surface.
   void add(const CloudScan& part);
 };
 
