@@ -188,12 +188,24 @@ class Reading {
     return all;
   }
 
-  /// Returns the sender of the flight's world: the executor itself if it hosts one, otherwise the first world.
+  /// Returns the time of a world's last OBSTACLE_TRUTH.
+  static UTime last_truth(const SenderMessages& world) {
+    UTime last{INT64_MIN};
+    for (const auto& [id, history] : world.truth) last = std::max(last, history.samples.back().at);
+    return last;
+  }
+
+  /// Returns the sender of the flight's world: the executor itself if it hosts one, otherwise the first world that
+  /// lasted until the first request. A simulator publishes its world while it waits, and may end before the flight.
   [[nodiscard]] std::int64_t own_world() const {
     const auto has_truth = [](const auto& known) { return !known.second.truth.empty(); };
     if (!record_.requests.empty()) {
-      const auto own = by_sender_.find(record_.requests.front().header.name.sender_epoch_us);
+      const Header& asked = record_.requests.front().header;
+      const auto own = by_sender_.find(asked.name.sender_epoch_us);
       if (own != by_sender_.end() && has_truth(*own)) return own->first;
+      const auto lasted = std::ranges::find_if(
+          by_sender_, [&](const auto& known) { return has_truth(known) && last_truth(known.second) >= asked.utime; });
+      if (lasted != by_sender_.end()) return lasted->first;
     }
     const auto first = std::ranges::find_if(by_sender_, has_truth);
     if (first != by_sender_.end()) return first->first;
@@ -235,8 +247,7 @@ class Reading {
     if (own == by_sender_.end() || own->second.truth.empty()) return;
     std::map<std::int64_t, std::int64_t> requests;
     for (const HorizonRequest& r : record_.requests) ++requests[r.header.name.sender_epoch_us];
-    UTime last;
-    for (const auto& [id, history] : own->second.truth) last = std::max(last, history.samples.back().at);
+    const UTime last = last_truth(own->second);
     for (const auto& [sender, messages] : by_sender_) {
       if (sender == world || (messages.truth.empty() && (sender <= last.us || !requests.contains(sender)))) continue;
       others_.insert(sender);
