@@ -31,9 +31,11 @@ int run(const std::string& log, const std::string& json_file) {
   const tern::audit::FlightRecord record = tern::value_or_throw(tern::audit::load_flight(log));
   const tern::audit::Audit audit = tern::audit::audit_flight(record);
   fmt::print("{}", tern::audit::to_text(audit, record));
-  if (!json_file.empty() && !tern::write_text(json_file, tern::audit::to_json(audit, record).dump(1) + "\n")) {
-    throw std::runtime_error(json_file + " cannot be written");
-  }
+  if (json_file.empty()) return exit_code(audit.verdict());
+  // The log's path need not be UTF-8.
+  const std::string json =
+      tern::audit::to_json(audit, record).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (!tern::write_text(json_file, json + "\n")) throw std::runtime_error(json_file + " cannot be written");
   return exit_code(audit.verdict());
 }
 
