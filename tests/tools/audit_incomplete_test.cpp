@@ -2,17 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "flight_log/log_reader.h"
 #include "messages/codec.h"
-#include "tests/support/recorded_flight.h"
-#include "tests/support/temp_folder.h"
-#include "tools/audit/app/load_flight.h"
-#include "tools/audit/audit.h"
+#include "tests/tools/audit_of_a_log.h"
 #include "tools/audit/true_motion.h"
 
 namespace tern::audit {
@@ -20,68 +14,10 @@ namespace {
 
 using ::testing::Contains;
 using testing::copy_log;
-using testing::copy_log_with;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-/// A short flight among movers, past a region, recorded once, and its logs with something missing.
-class AuditOfALog : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = new TempFolder;
-    record_ = new FlightRecord(load_flight(good()).value());
-  }
-  static void TearDownTestSuite() {
-    delete record_;
-    delete folder_;
-  }
-
-  static std::string good() { return testing::recorded_log("demo"); }
-  static std::string another_file() { return folder_->file("log" + std::to_string(++files_) + ".lcm"); }
-  /// Seconds of the flight as a receive time of the log.
-  static std::int64_t at_us(double seconds) { return (record_->zero() + Duration::from_seconds(seconds)).us; }
-
-  Audit audit(const std::string& log) {
-    read_ = load_flight(log).value();
-    return audit_flight(read_);
-  }
-  [[nodiscard]] std::string text(const Audit& audit) const { return to_text(audit, read_); }
-
-  template <class T>
-  static std::string with(const std::string& log, const char* channel, const std::function<bool(T&)>& change) {
-    const std::string file = another_file();
-    copy_log_with<T>(log, file, channel, change);
-    return file;
-  }
-  template <class T>
-  static std::string without(const char* channel) {
-    return with<T>(good(), channel, [](T&) { return false; });
-  }
-
-  static std::vector<std::string> broken(const Audit& audit) {
-    std::vector<std::string> names;
-    for (const Check& c : audit.checks) {
-      if (c.verdict() == Verdict::Broken) names.push_back(c.name);
-    }
-    return names;
-  }
-  static double measure_of(const Audit& audit, const std::string& check, const std::string& name) {
-    for (const auto& [key, value] : audit.check(check).measures) {
-      if (key == name) return value;
-    }
-    throw std::out_of_range(name);
-  }
-
-  static TempFolder* folder_;
-  static FlightRecord* record_;
-  static inline int files_ = 0;
-  FlightRecord read_;
-};
-
-TempFolder* AuditOfALog::folder_ = nullptr;
-FlightRecord* AuditOfALog::record_ = nullptr;
 
 /// Expects the same findings and numbers, whatever the file.
 void expect_same(const Audit& a, const Audit& b) {
@@ -119,6 +55,8 @@ TEST_F(AuditOfALog, OfALoggerThatWasAwayBoundsWhatItMissedAndBreaksNothing) {
   EXPECT_LT(measure_of(away, "result", "path_m_at_most"), path + 0.6 * 6.0 * std::sqrt(3.0));
   EXPECT_THAT(text(away), HasSubstr("s in holes"));
   EXPECT_THAT(text(away), Not(HasSubstr("Nothing was left unchecked")));
+  EXPECT_EQ(away.verdict(), Verdict::Incomplete);
+  EXPECT_THAT(away.span.gaps, ElementsAre(HasSubstr("1 times no state for more than 0.05 s")));
 }
 
 TEST_F(AuditOfALog, OfALoggerThatWasAwayStillFindsARefereeThatErrsByMoreThanTheGapExplains) {
@@ -252,6 +190,25 @@ TEST_F(AuditOfALog, WithTheWorldOfARestartedSimulatorJudgesTheFirstFlightAndName
   }
 }
 
+/// A simulator publishes its world while it waits. If it dies then, its successor's world is the one that is flown in.
+TEST_F(AuditOfALog, WithAWorldThatEndedBeforeTheFlightJudgesTheWorldThatWasFlownIn) {
+  const std::string waiting = another_file(), ghost = another_file(), both = another_file();
+  testing::copy_part_of_log(good(), waiting, 0, record_->requests.front().header.utime.us);
+  copy_log(waiting, ghost, [](std::string_view channel, std::vector<std::uint8_t>& bytes) {
+    if (channel != channels::kObstacleTruth.name) return bytes.clear();
+    auto truth = decode<ObstacleTruth>(bytes).value();
+    truth.header.name.sender_epoch_us -= 17;
+    bytes = encode(truth);
+  });
+  testing::join_logs({ghost, good()}, both);
+  const Audit alone = audit(good());
+  const Audit audited = audit(both);
+  EXPECT_EQ(audited.verdict(), Verdict::Held) << text(audited);
+  EXPECT_EQ(audited.check("clearance").summary, alone.check("clearance").summary);
+  EXPECT_EQ(read_.requests.size(), record_->requests.size());
+  EXPECT_THAT(audited.missing, ElementsAre(HasSubstr("has a world of its own, 0 requests: not audited")));
+}
+
 TEST_F(AuditOfALog, NamesAGoalThatPlansNameAndNobodyRecorded) {
   const Audit audited = audit(without<Goal>(channels::kGoal.name));
   EXPECT_THAT(audited.missing, Contains("no GOAL"));
@@ -284,89 +241,6 @@ TEST_F(AuditOfALog, WithoutDeclaredMotionsStatesTheClearanceAtTheSamples) {
   EXPECT_FALSE(audited.least.proven);
   EXPECT_THAT(audited.check("clearance").summary, HasSubstr("between samples by interpolation"));
   EXPECT_THAT(text(audited), HasSubstr("their motion was not declared"));
-}
-
-/// Appends an event as it stands in a log, with its number.
-void put_event(std::string& bytes, const LogEvent& event) {
-  const auto put = [&bytes](std::uint64_t value, int count) {
-    for (int k = count - 1; k >= 0; --k) bytes.push_back(static_cast<char>(value >> static_cast<unsigned>(8 * k)));
-  };
-  put(kLogSyncWord, 4);
-  put(static_cast<std::uint64_t>(event.number), 8);
-  put(static_cast<std::uint64_t>(event.received_us), 8);
-  put(event.channel.size(), 4);
-  put(event.data.size(), 4);
-  bytes += event.channel;
-  bytes.append(event.data.begin(), event.data.end());
-}
-
-int run_program(const std::string& arguments) {
-  return WEXITSTATUS(std::system((std::string(TERN_AUDIT_PROGRAM) + " " + arguments + " >/dev/null 2>&1").c_str()));
-}
-
-TEST_F(AuditOfALog, OfAPartIsIncompleteAndSaysFromWhenToWhenTheLogReaches) {
-  const std::string begun = another_file(), late = another_file(), away = another_file();
-  testing::copy_part_of_log(good(), begun, 0, at_us(1.2));
-  testing::copy_part_of_log(good(), late, at_us(2.0), INT64_MAX);
-  testing::copy_log_without(good(), away, at_us(2.0), at_us(3.2));
-  const std::vector<std::pair<std::string, std::string>> parts{
-      {begun, "the flight's end: the log ends at 1."},
-      {late, "the flight's beginning: the first request in the log is number"},
-      {away, "all messages from "}};
-  for (const auto& [log, gap] : parts) {
-    const Audit part = audit(log);
-    EXPECT_EQ(part.verdict(), Verdict::Incomplete) << text(part);
-    EXPECT_THAT(text(part), HasSubstr("Not in the log:\n  " + gap));
-    EXPECT_THAT(text(part), HasSubstr("INCOMPLETE: nothing is broken in the part of the flight that the log holds; it "
-                                      "reaches from "));
-    EXPECT_EQ(to_json(part, read_)["verdict"], "incomplete");
-    EXPECT_THAT(to_json(part, read_)["reaches"]["gaps"][0].get<std::string>(), HasSubstr(gap));
-    EXPECT_EQ(run_program(log), 3);
-  }
-  EXPECT_THAT(text(audit(late)), HasSubstr(" of a flight of ")) << "FLIGHT_RESULT says how long it was";
-}
-
-TEST_F(AuditOfALog, OfATruncatedFileIsIncompleteAndTheSummaryBesideItSaysOfHowMuch) {
-  const TempFolder flight;
-  std::ifstream whole(good(), std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(whole), {});
-  std::ofstream(flight.file("flight.lcm"), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
-  std::ofstream(flight.file("summary.json")) << R"({"log": "/r/flight.lcm", "flight_time_s": 13.25})";
-  const Audit part = audit(flight.file("flight.lcm"));
-  EXPECT_EQ(part.verdict(), Verdict::Incomplete);
-  EXPECT_THAT(text(part), HasSubstr(" s of a flight of 13.25 s"));
-}
-
-TEST_F(AuditOfALog, WithMessagesThatTheLoggerCouldNotWriteIsIncomplete) {
-  const std::string log = another_file();
-  auto reader = LogReader::open(good()).value();
-  std::string bytes;
-  for (int k = 0; auto event = reader.next(); ++k) {
-    if (k == 500) reader.next();  // its number is missing then, as after a write that failed
-    put_event(bytes, *event);
-  }
-  std::ofstream(log, std::ios::binary) << bytes;
-  const Audit part = audit(log);
-  EXPECT_EQ(part.verdict(), Verdict::Incomplete) << text(part);
-  EXPECT_THAT(text(part), HasSubstr("1 messages which tern-logger could not write"));
-
-  const std::string said = with<Heartbeat>(good(), channels::kHeartbeat.name, [](Heartbeat& heartbeat) {
-    if (heartbeat.process != "tern-planner") return true;
-    heartbeat.process = "tern-logger";
-    heartbeat.state = ProcessState::Failed;
-    heartbeat.waiting_for = "132 messages are not in the log";
-    return true;
-  });
-  EXPECT_EQ(audit(said).verdict(), Verdict::Incomplete);
-}
-
-TEST_F(AuditOfALog, OfAFlightThatNeverBeganIsNotJudged) {
-  const std::string log = another_file();
-  testing::copy_part_of_log(good(), log, 0, record_->requests.front().header.utime.us);
-  const Audit nothing = audit(log);
-  EXPECT_EQ(nothing.verdict(), Verdict::NotJudged) << text(nothing);
-  EXPECT_THAT(text(nothing), HasSubstr("NOT JUDGED: the flight never began"));
-  EXPECT_EQ(run_program(log), 4);
 }
 
 std::string colliding(FlightResult& r) {

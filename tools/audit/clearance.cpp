@@ -105,6 +105,7 @@ void meet(const SampledMotion& vehicle, const SampledMotion& obstacle, const Win
 /// The result for one obstacle: proven, or interpolated between its samples if nothing bounds its motion.
 struct Approach {
   Closest proven, interpolated;
+  bool compared = false;        ///< at any time; false: the log has no vehicle and obstacle at the same time
   bool between_samples = true;  ///< proven between samples as well
 };
 
@@ -123,6 +124,7 @@ struct Watch {
     std::size_t point = 0;
     meet(vehicle, motion, window, [&](const MotionSpan& own, const MotionSpan& other, const Curve& relative) {
       const Encounter e{body, half, relative, own.error + other.error, id, window.sure_from(), window.sure_to()};
+      approach.compared = true;
       search(e, 0.0, relative.length_s(), other.proven ? approach.proven : approach.interpolated);
       if (!other.proven) approach.between_samples = false;
       while (point < series.size() && series[point].at < relative.from) ++point;
@@ -131,12 +133,12 @@ struct Watch {
         if (gap < series[point].clearance_m) series[point] = {series[point].at, gap, id};
       }
     });
-    at_samples(id, history, approach.proven);
+    at_samples(id, history, approach);
     return approach;
   }
 
   /// Compares the vehicle with the obstacle at its recorded samples.
-  void at_samples(std::int64_t id, const ObstacleHistory& history, Closest& best) const {
+  void at_samples(std::int64_t id, const ObstacleHistory& history, Approach& approach) const {
     if (!history.moves) return;
     std::size_t k = 0;
     for (const ObstacleHistory::Sample& s : history.samples) {
@@ -146,8 +148,9 @@ struct Watch {
       if (own.hole || s.at < own.curve.from || s.at < window.sure_from()) continue;
       const Encounter e{body, s.half_extents, own.curve, own.error, id, window.sure_from(), window.sure_to()};
       const Gap gap = gap_within(e, own.curve.p((s.at - own.curve.from).seconds()) - s.p);
-      best.high = std::min(best.high, gap.high);
-      best.lower(gap.low, s.at, id);
+      approach.compared = true;
+      approach.proven.high = std::min(approach.proven.high, gap.high);
+      approach.proven.lower(gap.low, s.at, id);
     }
   }
 
@@ -227,6 +230,7 @@ class Verdicts {
   [[nodiscard]] double nearest() const { return std::min(proven_.low, interpolated_.low); }
 
   void take(const Approach& a) {
+    if (!a.compared) return void(++check_.unchecked[names_.all + std::string(" beside no state of the vehicle")]);
     ++check_.checked;
     if (!a.between_samples) ++undeclared_;
     proven_.high = std::min(proven_.high, a.proven.high);
@@ -349,17 +353,15 @@ Check check_map(const FlightRecord& record, Audit& audit) {
     const SampledMotion at_rest{{{stationary_curve(centre, watch.window.from, watch.window.to)}}, {}, 0};
     verdicts.take(watch.watch(wall.id, history, at_rest, verdicts.nearest()));
   }
-  check.checked = static_cast<std::int64_t>(walls.size());  ///< all other boxes are farther
+  if (check.checked > 0) check.checked = static_cast<std::int64_t>(walls.size());  ///< all other boxes are farther
   audit.least_of_map = verdicts.finish(watch.vehicle.hole_count == 0);
   return check;
 }
 
 Check check_clearance(const FlightRecord& record, Audit& audit) {
   Check check{.name = "clearance", .claim = "the body stayed clear of every true obstacle, in continuous time"};
-  if (record.requests.empty()) {
-    check.unchecked["the body is unknown: no HORIZON_REQUEST"] = 1;
-    return check;
-  }
+  if (record.requests.empty()) check.unchecked["the body is unknown: no HORIZON_REQUEST"] = 1;
+  if (record.requests.empty()) return check;
   Watch watch{record, record.requests.front().body, judged_window(record), vehicle_motion(record), audit.clearance};
   if (collided(record)) watch.window.to = watch.window.to + kAfterCollision;
   count_holes(watch.vehicle, channels::kUavState.name, check);
@@ -369,17 +371,17 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
   Verdicts verdicts(record, check);
   const Enclosing enclosed = enclosing(record, watch.window);
   SampledMotion holes;
-  static const std::vector<DeclaredPiece> kNothing;
   for (const auto& [id, history] : record.truth) {
     if (!may_be_met(history, enclosed)) continue;
     ++audit.obstacle_count.most;
     if (is_met(history, watch.window)) ++audit.obstacle_count.fewest;
     const auto declared = record.declared.find(id);
+    const bool is_declared = declared != record.declared.end();
     const SampledMotion motion =
-        obstacle_motion(history, declared == record.declared.end() ? kNothing : declared->second);
+        obstacle_motion(history, is_declared ? declared->second : std::vector<DeclaredPiece>());
     holes.holes = holes.holes + motion.holes;
     holes.hole_count += motion.hole_count;
-    if (!motion.spans.empty()) verdicts.take(watch.watch(id, history, motion, verdicts.nearest()));
+    verdicts.take(motion.spans.empty() ? Approach{} : watch.watch(id, history, motion, verdicts.nearest()));
   }
   count_holes(holes, channels::kObstacleTruth.name, check);
   if (record.truth_left_out > 0) check.unchecked["obstacles that OBSTACLE_TRUTH left out"] = record.truth_left_out;

@@ -3,10 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
+
+#include "messages/channels.h"
+#include "tools/audit/true_motion.h"
 
 namespace tern::audit {
 namespace {
 
+/// The channels that no check can do without, if the log has them.
+constexpr std::tuple kJudged{channels::kUavState,       channels::kVehicleTruth, channels::kSetpoint,
+                             channels::kHorizonRequest, channels::kPlan,         channels::kPredictions,
+                             channels::kObstacleTruth,  channels::kSemanticMap,  channels::kGoal,
+                             channels::kConfiguration,  channels::kFlightResult};
 constexpr double kSilence = kLogSilence.seconds();
 constexpr double kGoalRadius = 0.2;  ///< as the referee's, m
 constexpr double kRestSpeed = 0.1;   ///< the same, m/s
@@ -33,12 +42,8 @@ class Gaps {
     end();
     silences();
     states();
-    const LogDamage& damage = record_.contents.damage;
-    if (damage.missing > 0 && damage.places == 0) {
-      add(fmt::format("{} messages which tern-logger could not write, as the event numbers show", damage.missing));
-    } else if (!record_.logger_trouble.empty()) {
-      add("tern-logger: " + record_.logger_trouble);
-    }
+    refusals();
+    damage();
     return std::move(gaps_);
   }
 
@@ -64,11 +69,61 @@ class Gaps {
   }
 
   void states() {
-    if (record_.states.empty()) return;
-    const double from = record_.seconds(record_.states.front().at), to = record_.seconds(record_.states.back().at);
-    if (from > kSilence) add(fmt::format("the vehicle's states before {:.2f} s", from));
-    if (to < std::min(flight_end_s(), span_.to_s) - kSilence) {
+    if (record_.states.empty()) return add("the vehicle's states");
+    const Window window = judged_window(record_);
+    const UTime first = record_.states.front().at, last = record_.states.back().at;
+    const double to = record_.seconds(last);
+    if (first > window.sure_from() + kStateHole) {
+      add(fmt::format("the vehicle's states before {:.2f} s", record_.seconds(first)));
+    }
+    if (to < std::min(flight_end_s(), span_.to_s) - kSilence || last + kStateHole < window.to) {
       add(fmt::format("the vehicle's states from {:.2f} s on", to));
+    }
+    holes(window);
+  }
+
+  void holes(const Window& window) {
+    Duration sum;
+    int count = 0;
+    for (const MotionSpan& span : vehicle_motion(record_).spans) {
+      const UTime from = std::max(span.curve.from, window.sure_from()), to = std::min(span.curve.to, window.to);
+      if (!span.hole || from >= to) continue;
+      sum = sum + (to - from);
+      ++count;
+    }
+    if (count > 0) {
+      add(fmt::format("the vehicle's motion for {:.2f} s: {} times no state for more than {:g} s", sum.seconds(), count,
+                      kStateHole.seconds()));
+    }
+  }
+
+  void refusals() {
+    const auto look_at = [&](const auto& judged) {
+      const auto found = record_.contents.channels.find(judged.name);
+      if (found == record_.contents.channels.end()) return;
+      const LogChannel& channel = found->second;
+      const std::int64_t refused = channel.refused_total();
+      if (refused == 0 || refused + channel.repeated < channel.messages) return;
+      add(fmt::format("all {} messages of {}: damaged, or of another version", refused, judged.name));
+    };
+    for_each_channel(look_at, kJudged);
+  }
+
+  void damage() {
+    const LogContents& log = record_.contents;
+    for (const std::string& part : log.missing_parts) add("the log's part " + part);
+    const bool in_flight = std::ranges::any_of(log.damaged, [&](const auto& place) {
+      return place.second > record_.zero().us && record_.seconds(UTime{place.first}) < flight_end_s();
+    });
+    if (log.damage.missing > 0 && log.damage.places > 0) {
+      add(fmt::format("{} messages, as the event numbers show; the log is damaged in {} places", log.damage.missing,
+                      log.damage.places));
+    } else if (log.damage.missing > 0) {
+      add(fmt::format("{} messages which tern-logger could not write, as the event numbers show", log.damage.missing));
+    } else if (in_flight) {
+      add(fmt::format("what stood in {} damaged bytes of the log", log.damage.bytes));
+    } else if (!record_.logger_trouble.empty()) {
+      add("tern-logger: " + record_.logger_trouble);
     }
   }
 

@@ -20,8 +20,12 @@ struct LogSpan {
 /// Returns the span. The log lacks a part if
 /// - its first request is not the executor's first,
 /// - it ends before the flight: without FLIGHT_RESULT though a simulator flew, or while the vehicle flies,
-/// - it holds no message for kLogSilence, or no state of the vehicle for that long at the flight's start or end, or
-/// - messages are missing by the event numbers, since tern-logger could not write them.
+/// - it holds no message for kLogSilence, or no state of the vehicle for kStateHole at the judged time's start or end,
+/// - it holds no state for kLogSilence at the end of a log without FLIGHT_RESULT,
+/// - the vehicle's motion has holes (kStateHole), or no state at all,
+/// - every message of a channel that is judged was refused,
+/// - messages are missing by the event numbers, or a part of the log by its number, or
+/// - the log is damaged within the flight.
 LogSpan span_of(const FlightRecord& record);
 
 /// Returns "it reaches from -0.31 to 1.20 s of a flight of 13.25 s".
