@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "core/base/digest.h"
 #include "executor/app/executor_node.h"
 #include "flight_log/log_writer.h"
 #include "flight_log/text_log.h"
@@ -204,6 +205,88 @@ TEST_F(ReplayTest, WithoutItsConfigurationNothingIsReplayedButTheLogIsRead) {
   const Replay rest = replay(rewritten([](LogEvent& event) { return event.channel != channels::kConfiguration.name; }));
   EXPECT_EQ(rest.missing(), static_cast<std::int64_t>(rest.plans.size()));
   EXPECT_TRUE(text_has(rest, "not in the log: configuration ")) << replay_text(rest, false);
+}
+
+TEST_F(ReplayTest, AConfigurationThatThisVersionCannotReadIsMissingAndNoDifference) {
+  std::map<std::uint64_t, std::uint64_t> hashes;
+  const Replay rest = replay(rewritten([&](LogEvent& event) {
+    if (event.channel == channels::kConfiguration.name) {
+      auto report = *decode<ConfigurationReport>(event.data);
+      report.yaml += "planner: [a, form, of, another, version]\n";
+      hashes[report.hash] = digest(report.yaml);
+      report.hash = digest(report.yaml);
+      event.data = encode(report);
+    }
+    if (event.channel == channels::kPlan.name) {
+      auto plan = *decode<Plan>(event.data);
+      plan.inputs.configuration_hash = hashes.at(plan.inputs.configuration_hash);
+      event.data = encode(plan);
+    }
+    return true;
+  }));
+  EXPECT_EQ(rest.missing(), static_cast<std::int64_t>(rest.plans.size()));
+  EXPECT_EQ(rest.count(Agreement::Different), 0);
+  EXPECT_EQ(replay_exit_code(rest, false), 3);
+  EXPECT_TRUE(text_has(rest, "in a form that this version reads (")) << replay_text(rest, false);
+}
+
+/// Two executors asked the same planner, each with an id of 1.
+TEST_F(ReplayTest, ARestartedExecutorsAnswersKeepTheirOwnTimingsAndHeadings) {
+  const TempFolder folder;
+  {
+    auto writer = LogWriter::open(folder.file("two.lcm"), 0);
+    const auto put = [&](const char* channel, auto message, std::int64_t number) {
+      message.header = {{9, number}, UTime{1'000 + number}};
+      message.request_id = 1;
+      writer->append(channel, 1'000 + number, encode(message));
+    };
+    for (const std::int64_t executor : {1, 2}) {
+      const MessageName asked{executor, 1};
+      Plan plan;
+      plan.outcome = PlanOutcome::NoPlan;
+      plan.inputs.request = asked;
+      put(channels::kPlan.name, plan, executor);
+      PlanTiming timing;
+      timing.total_ms = static_cast<double>(executor);
+      put(channels::kPlanTiming.name, timing, executor);
+      PlanHeading heading;
+      heading.request = asked;
+      heading.control_points.assign(8, static_cast<double>(executor));
+      put(channels::kPlanHeading.name, heading, executor);
+    }
+  }
+  const auto inputs = read_recorded_inputs(folder.file("two.lcm"));
+  ASSERT_TRUE(inputs);
+  ASSERT_EQ(inputs->plans.size(), 2U);
+  for (const RecordedPlan& recorded : inputs->plans) {
+    const auto executor = static_cast<double>(recorded.plan.inputs.request.sender_epoch_us);
+    ASSERT_TRUE(recorded.timing && recorded.heading);
+    EXPECT_EQ(recorded.timing->total_ms, executor);
+    EXPECT_EQ(recorded.heading->control_points[0], executor);
+  }
+}
+
+TEST_F(ReplayTest, OfALogWithoutOneOfItsPartsIsIncomplete) {
+  const TempFolder folder;
+  auto reader = LogReader::open(log());
+  {
+    auto writer = LogWriter::open(folder.file("flight.lcm"), 200'000);
+    for (int k = 0; auto event = reader->next(); ++k) {
+      writer->append(event->channel, event->received_us, event->data);
+      if (k % 100 == 0) (void)writer->flush();
+    }
+  }
+  std::filesystem::remove(folder.file("flight.001.lcm"));
+  const Replay rest = replay(folder.file("flight.lcm"));
+  EXPECT_EQ(rest.unfulfilled(), 0);
+  EXPECT_EQ(replay_exit_code(rest, false), 3);
+  EXPECT_TRUE(text_has(rest, "its part flight.001.lcm is missing")) << replay_text(rest, false);
+}
+
+TEST_F(ReplayTest, OfALogWhoseNameIsNotUtf8IsToldAsJson) {
+  Replay rest = replay(log());
+  rest.inputs.log.parts = {"flight\xff.lcm"};
+  EXPECT_NE(replay_json(rest, false).find("flight\uFFFD.lcm"), std::string::npos);
 }
 
 TEST_F(ReplayTest, ATruncatedOrDamagedLogIsReplayedAsFarAsItGoes) {

@@ -30,16 +30,23 @@ class Maps {
   std::map<std::uint64_t, MapAssembler> unfinished_;
 };
 
-using PlanKey = std::pair<std::int64_t, std::int64_t>;  // sender epoch, request id
+/// What planners said beside their plans. An id of a request does not name one, since a restarted executor begins again
+/// at 1.
+struct BesidePlans {
+  std::map<MessageName, PlanTiming> timings;  ///< a planner sends one per plan, so with the name of the plan
+  std::map<std::pair<std::int64_t, MessageName>, PlanHeading> headings;  ///< by planner and request
 
-template <class Message>
-void attach(const std::map<PlanKey, Message>& messages, std::optional<Message> RecordedPlan::*part,
-            std::vector<RecordedPlan>& plans) {
-  for (RecordedPlan& recorded : plans) {
-    const auto found = messages.find({recorded.plan.header.name.sender_epoch_us, recorded.plan.request_id});
-    if (found != messages.end()) recorded.*part = found->second;
+  void attach(std::vector<RecordedPlan>& plans) const {
+    for (RecordedPlan& recorded : plans) {
+      const MessageName& name = recorded.plan.header.name;
+      const auto timing = timings.find(name);
+      const bool is_its = timing != timings.end() && timing->second.request_id == recorded.plan.request_id;
+      if (is_its) recorded.timing = timing->second;
+      const auto heading = headings.find({name.sender_epoch_us, recorded.plan.inputs.request});
+      if (heading != headings.end()) recorded.heading = heading->second;
+    }
   }
-}
+};
 
 /// Returns whether any planner kept a field of unseen movers.
 bool watches_unseen(const RecordedInputs& inputs) {
@@ -68,8 +75,7 @@ Result<void> read_frames(const std::string& path, const std::string& suffix, Rec
 Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::string& suffix) {
   RecordedInputs inputs;
   Maps maps(inputs.maps);
-  std::map<PlanKey, PlanTiming> timings;
-  std::map<PlanKey, PlanHeading> headings;
+  BesidePlans beside;
   FlightLog log(suffix);
   log.on(channels::kHorizonRequest,
          [&](const HorizonRequest& request, std::int64_t) { inputs.requests.emplace(request.header.name, request); });
@@ -82,19 +88,17 @@ Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::
   log.on(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) {
     inputs.plans.push_back({plan, received_us, std::nullopt, std::nullopt});
   });
-  log.on(channels::kPlanTiming, [&](const PlanTiming& timing, std::int64_t) {
-    timings[{timing.header.name.sender_epoch_us, timing.request_id}] = timing;
-  });
+  log.on(channels::kPlanTiming,
+         [&](const PlanTiming& timing, std::int64_t) { beside.timings[timing.header.name] = timing; });
   log.on(channels::kPlanHeading, [&](const PlanHeading& heading, std::int64_t) {
-    headings[{heading.header.name.sender_epoch_us, heading.request_id}] = heading;
+    beside.headings[{heading.header.name.sender_epoch_us, heading.request}] = heading;
   });
   auto contents = log.read(path);
   if (!contents) return tl::make_unexpected(contents.error());
   if (watches_unseen(inputs)) {
     if (auto read = read_frames(path, suffix, inputs); !read) return tl::make_unexpected(read.error());
   }
-  attach(timings, &RecordedPlan::timing, inputs.plans);
-  attach(headings, &RecordedPlan::heading, inputs.plans);
+  beside.attach(inputs.plans);
   inputs.log = std::move(*contents);
   return inputs;
 }

@@ -136,7 +136,8 @@ bool Replay::incomplete() const {
   const auto answers = inputs.log.channels.find(channels::kPlan.name + suffix);
   const bool known = answers != inputs.log.channels.end();
   return missing() > 0 || answers_before() > 0 || inputs.plans.empty() || damage.places > 0 || damage.missing > 0 ||
-         (known && answers->second.lost > 0 && !is_extract()) || (known && answers->second.refused_total() > 0);
+         !inputs.log.missing_parts.empty() || (known && answers->second.lost > 0 && !is_extract()) ||
+         (known && answers->second.refused_total() > 0);
 }
 
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options) {

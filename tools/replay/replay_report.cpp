@@ -38,6 +38,9 @@ std::string what_the_log_lacks(const Replay& replay) {
                         damage.truncated ? "; its end is cut off" : "");
   }
   if (damage.missing > 0) text += fmt::format("  {} messages are missing, as the event numbers show\n", damage.missing);
+  for (const std::string& part : replay.inputs.log.missing_parts) {
+    text += fmt::format("  its part {} is missing\n", part);
+  }
   std::map<std::string, LogChannel> channels = replay.inputs.log.channels;
   for (const auto& [name, channel] : replay.predictions.channels) {
     if (channel.read) channels[name] = channel;
@@ -197,7 +200,8 @@ std::string replay_json(const Replay& replay, bool what_if) {
     }
     list.push_back(std::move(line));
   }
-  return root.dump(1) + "\n";
+  // The log's path need not be UTF-8.
+  return root.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 int replay_exit_code(const Replay& replay, bool what_if) {

@@ -35,6 +35,30 @@ bool is_within(std::string_view key, std::string_view above) {
 /// The mark at the end of a configuration that was too long to report (reported_yaml).
 bool is_cut(const std::string& yaml) { return yaml.find("\n# cut here: ") != std::string::npos; }
 
+/// A configuration of the log, with changed settings.
+struct OwnSettings {
+  Scenario scenario;
+  PlannerConfig config;
+};
+
+/// @param with_planner  false: the planner's section is not read @throws ConfigError
+OwnSettings read_own(const std::string& yaml, const std::vector<std::string>& settings, bool with_planner) {
+  auto document = ConfigDocument::parse(yaml, "the log's configuration", settings);
+  OwnSettings own{read_scenario(document), {}};
+  if (with_planner) own.config = read_planner_config(document.root().section("planner"), own.scenario.semantics);
+  return own;
+}
+
+/// Returns why this version cannot read a configuration of the log; empty if it can.
+std::string why_unreadable(const std::string& yaml, bool with_planner) {
+  try {
+    (void)read_own(yaml, {}, with_planner);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 }  // namespace
 
 void OtherSettings::check() const {
@@ -78,14 +102,18 @@ Result<WorldRebuilder::Configuration*> WorldRebuilder::configuration_of(std::uin
   const auto report = inputs_.configurations.find(hash);
   if (report == inputs_.configurations.end()) return fail(fmt::format("configuration {:016x}", hash));
   if (is_cut(report->second.yaml)) return fail(fmt::format("the complete configuration {:016x}", hash));
-  Configuration made;
   const bool own = other_.file.empty();
-  auto document = ConfigDocument::parse(report->second.yaml, "the log's configuration",
-                                        own ? other_.settings : std::vector<std::string>());
-  const Scenario scenario = read_scenario(document);
+  const auto [read, is_new] = unreadable_.try_emplace(hash);
+  if (is_new) read->second = why_unreadable(report->second.yaml, own);
+  if (!read->second.empty()) {
+    return fail(fmt::format("configuration {:016x} in a form that this version reads ({})", hash, read->second));
+  }
+  Configuration made;
+  const auto [scenario, config] =
+      read_own(report->second.yaml, own ? other_.settings : std::vector<std::string>(), own);
   made.uav = scenario.uav;
   if (own) {
-    made.config = read_planner_config(document.root().section("planner"), scenario.semantics);
+    made.config = config;
   } else {
     auto file = ConfigDocument::load(other_.file, other_.settings);
     const Scenario others = read_scenario(file);

@@ -48,7 +48,8 @@ class WorldRebuilder {
   /// Adds the next complete set of any predictor, in the log's order. Static tracks are remembered as planners do.
   void add(TrackSet set);
 
-  /// Returns the inputs of a plan. @return an Error that names the inputs that the log lacks
+  /// Returns the inputs of a plan. @return an Error that names the inputs that the log lacks, or has in a form that
+  /// this version cannot read. @throws ConfigError for other settings that the planner refuses
   ///
   /// A plan names no frames of OBSTACLE_SIGHTINGS. Its field of unseen movers is made from those that the log has
   /// before its request. In a live flight, a frame that came within a millisecond of the request may be on the other
@@ -78,6 +79,7 @@ class WorldRebuilder {
   const RecordedInputs& inputs_;
   OtherSettings other_;
   std::map<std::uint64_t, Configuration> configurations_;  ///< by hash
+  std::map<std::uint64_t, std::string> unreadable_;        ///< by hash: why this version cannot read it; empty: it can
   std::vector<Field> fields_;                              ///< the newest last
   std::shared_ptr<const PredictionProducts> predictions_;
   std::map<std::pair<std::int64_t, std::int64_t>, StaticTracks> memories_;  ///< by sender epoch and first set
