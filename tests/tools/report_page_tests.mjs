@@ -108,6 +108,8 @@ await run({
     const page = await newPage();
     await page.goto(await report('short_sighted'));
     const said = await page.textContent('main');
+    const { top_speed } = await page.evaluate(() => JSON.parse(document.getElementById('data').textContent).flight.result);
+    expect(`the top speed is the referee's, ${top_speed}`, said.includes(`${top_speed.toFixed(2)} m/stop speed`));
     expect('it was in motion', said.includes('1 / 0contacts while moving / at rest'));
     expect('it was seen late', /Obstacle \d+ was touched at [\d.]+ s, by the vehicle at [\d.]+ m\/s\. It had been in PREDICTIONS for 0\.\d+ s\./.test(said));
   },

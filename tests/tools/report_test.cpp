@@ -128,7 +128,7 @@ TEST(Report, TellsWhereTheVehicleWasInItsTube) {
 }
 
 /// Five minutes among 300 movers, at the rates of a live flight.
-FlightRecord long_flight() {
+FlightRecord long_flight(int answers = 6'000) {
   FlightRecord record;
   for (int k = 0; k < 30'000; ++k) {
     UavState s;
@@ -147,17 +147,19 @@ FlightRecord long_flight() {
                                  Vec3::Zero(), Vec3::Constant(0.4)});
     }
   }
-  for (int k = 1; k <= 6'000; ++k) {
+  for (int k = 1; k <= answers; ++k) {
     HorizonRequest request;
     request.header = {{1, k}, UTime{k * 50'000LL}};
     request.id = k;
     request.deadline = request.header.utime + Duration{70'000};
     record.requests.push_back(request);
     Plan plan;
+    plan.header.name = {3, k};
     plan.request_id = k;
     plan.inputs.request = request.header.name;
     record.plans.push_back(plan);
     PlanTiming timing;
+    timing.header.name = plan.header.name;
     timing.request_id = k;
     timing.total_ms = 1.234567 + 0.01 * (k % 331);
     for (double& ms : timing.stage_ms) ms = 0.123456 * (k % 13);
@@ -191,6 +193,71 @@ TEST(Report, OfFiveMinutesAmong300MoversStaysUnder5MegabytesAndHidesNoExtreme) {
   const auto clearance = path["clearance"].get<std::vector<double>>();
   EXPECT_DOUBLE_EQ(*std::max_element(axis_speed.begin(), axis_speed.end()), 5.75);
   EXPECT_NEAR(*std::min_element(clearance.begin(), clearance.end()), 0.0625, 1e-3);
+}
+
+TEST(Report, CountsEveryAnswerAlsoOfAFlightWhoseChartLeavesSomeOut) {
+  FlightRecord record = long_flight(6'365);
+  for (std::size_t k = 0; k < 100; ++k) record.timings[k].from_watchdog = true;
+  for (std::size_t k = 0; k < 40; ++k) record.plans[k].outcome = PlanOutcome::Optimized;
+  record.plans.resize(6'360);
+  const nlohmann::json answers = report_data(record, Audit{})["answers"];
+  EXPECT_LT(answers["t"].size(), 6'000U);
+  const nlohmann::json& counts = answers["counts"];
+  EXPECT_EQ(counts["requests"], 6'365);
+  EXPECT_EQ(counts["from_watchdog"], 100);
+  std::map<int, int> by_outcome;
+  for (const auto& row : counts["outcomes"]) {
+    by_outcome[row["outcome"].is_null() ? -1 : row["outcome"].get<int>()] += row["answers"].get<int>();
+  }
+  const std::map<int, int> expected{
+      {-1, 5}, {static_cast<int>(Plan{}.outcome), 6'320}, {static_cast<int>(PlanOutcome::Optimized), 40}};
+  EXPECT_EQ(by_outcome, expected);
+}
+
+TEST(Report, GivesTheAnswersOfARestartedExecutorTheirOwnTimings) {
+  FlightRecord record = long_flight(10);
+  const FlightRecord first = record;
+  for (std::size_t k = 0; k < 10; ++k) {
+    HorizonRequest request = first.requests[k];
+    request.header = {{2, request.id}, request.header.utime + Duration{10'000'000}};
+    record.requests.push_back(request);
+    Plan plan = first.plans[k];
+    plan.header.name.sequence += 10;
+    plan.inputs.request = request.header.name;
+    record.plans.push_back(plan);
+    PlanTiming timing = first.timings[k];
+    timing.header.name = plan.header.name;
+    timing.total_ms += 100.0;
+    record.timings.push_back(timing);
+  }
+  const nlohmann::json total = report_data(record, Audit{})["answers"]["total"];
+  for (std::size_t k = 0; k < 10; ++k) {
+    EXPECT_NEAR(total[k].get<double>(), first.timings[k].total_ms, 1e-3);
+    EXPECT_NEAR(total[k + 10].get<double>(), first.timings[k].total_ms + 100.0, 1e-3);
+  }
+}
+
+/// The error is along the short axis of the stated ellipsoid, so shorter than the bound that the chart draws.
+TEST(Report, HasTheSummarysShareOfTimeWithinTheStatedEllipsoid) {
+  FlightRecord record;
+  for (int k = 0; k <= 400; ++k) {
+    UavState state;
+    state.at = UTime{k * 10'000LL};
+    if (k >= 200) state.motion.v.x() = 1.0;
+    state.motion.p.x() = k >= 200 ? 0.01 * (k - 200) : 0.0;
+    record.states.push_back(state);
+    Odometry odometry;
+    odometry.at = state.at;
+    odometry.state = EstimatorState::Tracking;
+    odometry.p_OB = state.motion.p;
+    odometry.p_OB.z() += k < 200 || k % 4 == 0 ? 0.4 : 0.3;  // at rest it does not count
+    const std::array<double, 3> variances{1.0, 1.0, 0.01};
+    for (std::size_t axis = 0; axis < 3; ++axis) odometry.pose_covariance[7 * axis] = variances[axis];
+    record.odometry.push_back(odometry);
+  }
+  const nlohmann::json estimate = report_data(record, Audit{})["estimate"];
+  EXPECT_NEAR(estimate["inside"].get<double>(), 0.75, 0.01);
+  EXPECT_LT(estimate["error"][0].get<double>(), estimate["bound"][0].get<double>());
 }
 
 TEST(Report, HasThePercentilesOfTheMonitorsSummary) {

@@ -14,6 +14,7 @@
 #include "core/world/names.h"
 #include "core/world/replan_samples.h"
 #include "core/world/stated_bound.h"
+#include "monitor/estimate_watch.h"
 #include "runtime/clock.h"
 #include "tools/report/map_runs.h"
 
@@ -110,6 +111,22 @@ json path_of(const FlightRecord& record, const Audit& audit) {
   return path;
 }
 
+/// Returns the share of time in which the true position was within the stated 99 % ellipsoid, as the summary has it;
+/// null without ODOMETRY of a flying vehicle.
+json coverage_of(const FlightRecord& record) {
+  const UTime end = record.results.empty() ? UTime{INT64_MAX} : record.results.front().header.utime;
+  EstimateWatch watch;
+  auto truth = record.states.begin();
+  for (const Odometry& odometry : record.odometry) {
+    if (odometry.at > end) break;
+    for (; truth != record.states.end() && truth->at <= std::min(odometry.at, end); ++truth) watch.add_truth(*truth);
+    watch.add(odometry);
+  }
+  if (truth != record.states.end() && truth->at <= end) watch.add_truth(*truth);
+  const auto measures = watch.measures(Vec3::Zero());
+  return measures ? json(measures->coverage) : json();
+}
+
 /// The error of ODOMETRY's position in W against VEHICLE_TRUTH, and the bound that it states: √(χ²(3, 0.99) λ_max(Σ)).
 json estimate_of(const FlightRecord& record) {
   const std::size_t share = std::max<std::size_t>(1, (record.odometry.size() + kMaxPathPoints - 1) / kMaxPathPoints);
@@ -124,7 +141,9 @@ json estimate_of(const FlightRecord& record) {
                  stated_bound(odometry.pose_covariance), static_cast<double>(odometry.tracks),
                  static_cast<double>(odometry.rejected), p.x(), p.y(), p.z()});
   }
-  return columns.take();
+  json estimate = columns.take();
+  estimate["inside"] = coverage_of(record);
+  return estimate;
 }
 
 json obstacles_of(const FlightRecord& record) {
@@ -186,23 +205,44 @@ struct Answer {
 };
 
 std::vector<Answer> answers_of(const FlightRecord& record, double pace) {
-  std::map<std::int64_t, const PlanTiming*> timings;
-  for (const PlanTiming& t : record.timings) timings[t.request_id] = &t;
+  // A planner sends one timing per plan. An id does not name a request: a restarted executor begins again at 1.
+  std::map<MessageName, const PlanTiming*> timings;
+  for (const PlanTiming& t : record.timings) timings[t.header.name] = &t;
   std::map<MessageName, const Plan*> plans;
   for (const Plan& plan : record.plans) plans.emplace(plan.inputs.request, &plan);
   std::vector<Answer> answers;
   for (const HorizonRequest& r : record.requests) {
     Answer a{record.seconds(r.header.utime), (r.deadline - r.header.utime).seconds() * 1e3 / pace, nullptr, nullptr};
-    if (const auto plan = plans.find(r.header.name); plan != plans.end()) a.plan = plan->second;
-    if (const auto timing = timings.find(r.id); timing != timings.end()) a.timing = timing->second;
+    if (const auto plan = plans.find(r.header.name); plan != plans.end()) {
+      a.plan = plan->second;
+      const auto timing = timings.find(a.plan->header.name);
+      if (timing != timings.end() && timing->second->request_id == r.id) a.timing = timing->second;
+    }
     answers.push_back(a);
   }
   return answers;
 }
 
+/// Returns the counts of all answers, also of those that the arrays leave out.
+json counts_of(const std::vector<Answer>& answers) {
+  std::map<std::pair<int, int>, std::int64_t> counts;  ///< by outcome and reason; −1: unanswered
+  std::int64_t from_watchdog = 0;
+  for (const Answer& a : answers) {
+    ++counts[a.plan == nullptr ? std::pair{-1, 0}
+                               : std::pair{static_cast<int>(a.plan->outcome), static_cast<int>(a.plan->reason)}];
+    from_watchdog += a.timing != nullptr && a.timing->from_watchdog ? 1 : 0;
+  }
+  json rows = json::array();
+  for (const auto& [what, n] : counts) {
+    const auto& [outcome, reason] = what;
+    rows.push_back({{"outcome", outcome < 0 ? json() : json(outcome)}, {"reason", reason}, {"answers", n}});
+  }
+  return {{"requests", answers.size()}, {"from_watchdog", from_watchdog}, {"outcomes", rows}};
+}
+
 json answers_to_json(const std::vector<Answer>& answers) {
   const std::size_t share = std::max<std::size_t>(1, (answers.size() + kMaxAnswers - 1) / kMaxAnswers);
-  Columns columns{"t", "deadline", "total", "outcome", "reason", "watchdog"};
+  Columns columns{"t", "deadline", "total", "outcome", "reason"};
   std::vector<json> stages(kStages, json::array());
   for (std::size_t from = 0; from < answers.size(); from += share) {
     const auto last = answers.begin() + static_cast<std::ptrdiff_t>(std::min(from + share, answers.size()));
@@ -210,14 +250,14 @@ json answers_to_json(const std::vector<Answer>& answers) {
                                         [](const Answer& x, const Answer& y) { return x.total_ms() < y.total_ms(); });
     const double outcome = a.plan == nullptr ? NAN : static_cast<double>(a.plan->outcome);
     const double reason = a.plan == nullptr ? NAN : static_cast<double>(a.plan->reason);
-    columns.add({a.t, a.deadline_ms, a.timing == nullptr ? NAN : a.timing->total_ms, outcome, reason,
-                 a.timing != nullptr && a.timing->from_watchdog ? 1.0 : 0.0});
+    columns.add({a.t, a.deadline_ms, a.timing == nullptr ? NAN : a.timing->total_ms, outcome, reason});
     for (std::size_t k = 0; k < stages.size(); ++k) {
       stages[k].push_back(a.timing == nullptr ? json() : json(rounded(a.timing->stage_ms[k])));
     }
   }
   json result = columns.take();
   result["stages"] = stages;
+  result["counts"] = counts_of(answers);
   result["share"] = share;
   return result;
 }

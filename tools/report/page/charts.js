@@ -63,13 +63,13 @@ function tracking() {
 }
 /** A vehicle that estimates its own pose: how wrong it was, and how wrong it said it might be. */
 function estimation() {
-  const { t, error, bound, tracks, rejected } = data.estimate;
+  const { t, error, bound, tracks, rejected, inside } = data.estimate;
   if (!t.length) return;
   const goal = flight.goal, last = path.t.length - 1;
   const off = goal ? Math.hypot(path.x[last] - goal[0], path.y[last] - goal[1], path.z[last] - goal[2]) : null;
-  const inside = error.filter((e, i) => e <= bound[i]).length / error.length;
+  const held = inside == null ? "" : ` In flight the true position was inside ${percent(inside, 1)} of the time.`;
   const row = pair();
-  chart(card("Error of the estimate, m", `Distance of the estimated from the true position. Dashed: the bound that the estimator states at 99 %; it held ${percent(inside, 1)} of the time.${off == null ? "" : ` At the end the vehicle is ${fixed(off, 2)} m from its goal in truth.`}`, row), {
+  chart(card("Error of the estimate, m", `Distance of the estimated from the true position. Dashed: the longest half axis of the ellipsoid that the estimator states at 99 %.${held}${off == null ? "" : ` At the end the vehicle is ${fixed(off, 2)} m from its goal in truth.`}`, row), {
     columns: [t, error, bound],
     series: [{ label: "error", colour: "c1", fill: true, value: (u, y) => fixed(y, 3) },
       { label: "stated bound", colour: "bad", dash: [6, 4], width: 1.2, value: (u, y) => fixed(y, 3) }],
@@ -125,10 +125,11 @@ function replanning() {
   });
   const strip = card("Plan outcomes", "One mark per answer.");
   const present = OUTCOMES.map((_, k) => k);
+  const counted = (k) => answers.counts.outcomes.reduce((sum, c) => sum + (c.outcome === k ? c.answers : 0), 0);
   chart(strip, {
     height: 170,
     columns: [answers.t, ...present.map((k) => answers.outcome.map((o) => (o === k ? OUTCOMES.length - k : null)))],
-    series: present.map((k) => ({ label: `${answers.outcome.filter((o) => o === k).length} ${OUTCOMES[k]}`, colour: ["c3", "c1", "c6", "c2", "bad"][k], width: 0, paths: () => null,
+    series: present.map((k) => ({ label: `${counted(k)} ${OUTCOMES[k]}`, colour: ["c3", "c1", "c6", "c2", "bad"][k], width: 0, paths: () => null,
       points: { show: true, size: 5, fill: css(["c3", "c1", "c6", "c2", "bad"][k]), space: 0 }, value: (u, y, s, i) => (i == null || y == null ? "–" : REASONS[answers.reason[i]]) })),
     range: () => [0.4, OUTCOMES.length + 0.6],
     axis: { size: 112, splits: () => [1, 2, 3, 4, 5], values: () => [...OUTCOMES].reverse(), grid: { show: false } },

@@ -23,11 +23,11 @@ function head() {
     [result ? fixed(result.time_s, 2) : fixed(flight.length_s, 2), "s", "flight time"],
     [result ? fixed(result.path_m, 1) : "–", "m", "path"],
     [result ? fixed(result.mean_speed, 2) : "–", "m/s", "mean speed to the goal"],
-    [fixed(most(path.speed), 2), "m/s", "top speed"],
+    [fixed(result ? result.top_speed : most(path.speed), 2), "m/s", "top speed"],
     ...(result && result.contacts_moving + result.contacts_at_rest > 0 ? [[`${whole(result.contacts_moving)} / ${whole(result.contacts_at_rest)}`, "", "contacts while moving / at rest"]] : []),
     least(clearance, "obstacles"),
     ...(leastOf(walls) === undefined ? [] : [least(walls, "the map")]),
-    [whole(answers.t.length), "", "plans requested"],
+    [whole(answers.counts.requests), "", "plans requested"],
     [fixed(total[0], 1) + " / " + fixed(total[2], 1), "ms", "replan p50 / p99"],
     [percent(check("predictions").measures.promises_kept_share, 2), "", "predictions covered"],
   ];
@@ -54,10 +54,9 @@ function tables() {
   const costs = card("Replan time, ms", null, row);
   table(costs, [["stage", false], ["p50", true], ["p95", true], ["p99", true], ["largest", true]], data.costs.filter((c) => c.ms.length).map((c) => [c.name, ...c.ms.map((x) => fixed(x, 2))]));
   const outcomes = card("Answers", null, row);
-  const counts = new Map();
-  answers.outcome.forEach((o, i) => { const key = o == null ? "unanswered|" : OUTCOMES[o] + "|" + (answers.reason[i] ? REASONS[answers.reason[i]] : ""); counts.set(key, (counts.get(key) || 0) + 1); });
-  const late = answers.watchdog.filter((w) => w).length;
-  table(outcomes, [["outcome", false], ["reason", false], ["answers", true]], [...counts].sort((a, b) => b[1] - a[1]).map(([key, n]) => [...key.split("|"), whole(n)]));
+  const late = answers.counts.from_watchdog;
+  table(outcomes, [["outcome", false], ["reason", false], ["answers", true]], [...answers.counts.outcomes].sort((a, b) => b.answers - a.answers)
+    .map((c) => [c.outcome == null ? "unanswered" : OUTCOMES[c.outcome], c.reason ? REASONS[c.reason] : "", whole(c.answers)]));
   if (late) outcomes.append(el("p", { class: "note" }, `${late} were sent by the watchdog.`));
   const exposure = check("exposure").measures;
   if (regions.length) {
