@@ -17,6 +17,10 @@ std::string shortfalls(const LogContents& contents) {
   if (contents.damage.places > 0) {
     text += fmt::format("the log is damaged in {} places, {} bytes\n", contents.damage.places, contents.damage.bytes);
   }
+  if (contents.damage.missing > 0) {
+    text += fmt::format("{} messages are missing, as the event numbers show\n", contents.damage.missing);
+  }
+  for (const std::string& part : contents.missing_parts) text += fmt::format("the log's part {} is missing\n", part);
   if (contents.damage.truncated) text += "the log ends within a message\n";
   return text;
 }

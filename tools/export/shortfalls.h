@@ -7,7 +7,8 @@
 
 namespace tern::exporting {
 
-/// Returns a line per channel and reason: not Tern's, refused, lost; and a line for damage. Empty if there is nothing.
+/// Returns a line per channel and reason: not Tern's, refused, lost; and a line for each kind of damage. Empty if there
+/// is nothing.
 std::string shortfalls(const LogContents& contents);
 
 }  // namespace tern::exporting
