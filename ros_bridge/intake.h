@@ -78,7 +78,8 @@ Taken<Vec3> read(const ros::PoseStamped& goal, const IntakeContext& context);
 /// The scans of a cloud with float32 fields x, y, z, and with `class` (uint8) if it has one. Rays begin at the origin
 /// of cloud_sensor. If that is empty: at the vehicle for a cloud in a world, and at the origin of the cloud's frame
 /// otherwise.
-/// @return a Refusal also if, without cloud_sensor, the vehicle's position is unknown. The same if that origin is farther
+/// @return a Refusal also if, without cloud_sensor, the vehicle's position is unknown. The same if that origin is
+/// farther
 ///   from it than kOnVehicle and the way since the cloud's stamp. Such a frame is `odom`, or a lidar's fixed world, and
 ///   space that no ray has passed would become free
 Taken<std::vector<CloudScan>> read(const ros::PointCloud2& cloud, const IntakeContext& context);

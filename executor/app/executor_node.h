@@ -24,8 +24,8 @@
 namespace tern {
 
 /// Flies plans: requests them, adopts them, and publishes a setpoint at 100 Hz and at each knot of the trajectory.
-/// Receives UAV_STATE, VEHICLE_STATUS, GOAL, SPEED_LIMIT, PLAN and PLAN_HEADING; publishes HORIZON_REQUEST, SETPOINT and
-/// GOAL.
+/// Receives UAV_STATE, VEHICLE_STATUS, GOAL, SPEED_LIMIT, PLAN and PLAN_HEADING; publishes HORIZON_REQUEST, SETPOINT
+/// and GOAL.
 ///
 /// | state     | entered when                                                  | publishes      | requests plans    |
 /// |-----------|---------------------------------------------------------------|----------------|-------------------|
