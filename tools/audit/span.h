@@ -22,7 +22,7 @@ struct LogSpan {
 /// - it ends before the flight: without FLIGHT_RESULT though a simulator flew, or while the vehicle flies,
 /// - it holds no message for kLogSilence, or no state of the vehicle for kStateHole at the judged time's start or end,
 /// - it holds no state for kLogSilence at the end of a log without FLIGHT_RESULT,
-/// - the vehicle's motion has holes (kStateHole), or no state at all,
+/// - the vehicle's motion has holes of more than 0.3 s, or no state at all,
 /// - every message of a channel that is judged was refused,
 /// - messages are missing by the event numbers, or a part of the log by its number, or
 /// - the log is damaged within the flight.
