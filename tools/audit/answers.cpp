@@ -81,12 +81,23 @@ class AnswerCheck {
     });
   }
 
+  /// Of messages that a silence of the log swallowed, no later number may tell.
+  [[nodiscard]] bool in_silence(const HorizonRequest& request) const {
+    const auto& spans = record_.contents.spans;
+    for (std::size_t k = 1; k < spans.size(); ++k) {
+      if (request.deadline.us > spans[k - 1].second && request.header.utime.us < spans[k].first) return true;
+    }
+    return false;
+  }
+
   void unanswered() {
     std::int64_t unread = record_.unread(channels::kPlan.name);
     for (const HorizonRequest& r : record_.requests) {
       if (answers_.contains(r.header.name)) continue;
       if (r.deadline >= record_.end()) {
         ++check_.unchecked["requests that were open when the log ended"];
+      } else if (in_silence(r)) {
+        ++check_.unchecked["requests whose answer falls into a silence of the log"];
       } else if (unread > 0) {
         --unread;
         ++check_.unchecked["requests whose answer may be among the PLANs that were lost or refused"];
