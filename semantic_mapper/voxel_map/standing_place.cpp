@@ -33,8 +33,8 @@ std::vector<std::int64_t> voxels_within(double room, const VoxelGrid& grid, cons
 
 bool is_at_the_edge(const VoxelGrid& grid, const std::vector<VoxelLabel>& labels, const Body& body, const Vec3& p) {
   for (int k = 0; k < 27; ++k) {
-    const Vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    if (voxels_within(0.0, grid, labels, body, p + grid.resolution * step).empty()) return true;
+    const Eigen::Vector3i step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    if (voxels_within(0.0, grid, labels, body, p + grid.resolution * step.cast<double>()).empty()) return true;
   }
   return false;
 }
