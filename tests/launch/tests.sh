@@ -185,6 +185,13 @@ with_stubborn_planner() {
   export TERN_BIN=$work/bin
 }
 
+an_example_in_python_says_that_there_is_no_multicast_route() {
+  export PYTHONPATH=$TERN_BIN/../python
+  [[ $(code unshare -Urn python3 "$root/docs/examples/own_detector.py" --empty) == 1 ]] || fail "$(cat "$work/out")"
+  expect "the remedy" has_text "this machine has no route for multicast: ip route add" "$work/out"
+  ! has_text Traceback "$work/out" || fail "$(cat "$work/out")"
+}
+
 ctrl_c_ends_everything() {
   with_stubborn_planner
   start_flight flight --seed 2

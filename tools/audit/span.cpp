@@ -75,10 +75,10 @@ class Gaps {
     const Window window = judged_window(record_);
     const UTime first = record_.states.front().at, last = record_.states.back().at;
     const double to = record_.seconds(last);
-    if (first > window.sure_from() + kStateHole) {
+    if (first > window.sure_from() + kLongHole) {
       add(fmt::format("the vehicle's states before {:.2f} s", record_.seconds(first)));
     }
-    if (to < std::min(flight_end_s(), span_.to_s) - kSilence || last + kStateHole < window.to) {
+    if (to < std::min(flight_end_s(), span_.to_s) - kSilence || last + kLongHole < window.to) {
       add(fmt::format("the vehicle's states from {:.2f} s on", to));
     }
     holes(window);

@@ -20,7 +20,7 @@ struct LogSpan {
 /// Returns the span. The log lacks a part if
 /// - its first request is not the executor's first,
 /// - it ends before the flight: without FLIGHT_RESULT though a simulator flew, or while the vehicle flies,
-/// - it holds no message for kLogSilence, or no state of the vehicle for kStateHole at the judged time's start or end,
+/// - it holds no message for kLogSilence, or no state of the vehicle for 0.3 s at the judged time's start or end,
 /// - it holds no state for kLogSilence at the end of a log without FLIGHT_RESULT,
 /// - the vehicle's motion has holes of more than 0.3 s, or no state at all,
 /// - every message of a channel that is judged was refused,

@@ -30,8 +30,8 @@ class Maps {
   std::map<std::uint64_t, MapAssembler> unfinished_;
 };
 
-/// What planners said beside their plans. An id of a request does not name one, since a restarted executor begins again
-/// at 1.
+/// The messages of planners beside their plans. A restarted executor counts its requests from 1 again, so the id alone
+/// does not name a request.
 struct BesidePlans {
   std::map<MessageName, PlanTiming> timings;  ///< a planner sends one per plan, so with the name of the plan
   std::map<std::pair<std::int64_t, MessageName>, PlanHeading> headings;  ///< by planner and request

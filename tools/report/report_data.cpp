@@ -205,7 +205,7 @@ struct Answer {
 };
 
 std::vector<Answer> answers_of(const FlightRecord& record, double pace) {
-  // A planner sends one timing per plan. An id does not name a request: a restarted executor begins again at 1.
+  // A planner sends one timing per plan. A restarted executor counts its requests from 1 again.
   std::map<MessageName, const PlanTiming*> timings;
   for (const PlanTiming& t : record.timings) timings[t.header.name] = &t;
   std::map<MessageName, const Plan*> plans;
