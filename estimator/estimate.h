@@ -64,7 +64,7 @@ enum class Trouble : std::uint8_t {
   FixNotFinite,      ///< a fix has no usable position or variance: not used
   FixLate,           ///< a fix is older than all past poses: not used
   FixAhead,          ///< a fix is far newer than the IMU's newest sample: not used
-  FixContradicts,    ///< the χ² gate refused a fix
+  FixContradicts,    ///< the χ² gate refused a fix; of kBelievedFixes in a row that agree, the last is used
   NotAtRest,         ///< the vehicle moves, so the estimate cannot begin
 };
 inline constexpr int kTroubles = 16;

@@ -6,6 +6,7 @@
 
 #include "estimator/estimator.h"
 #include "estimator/filter/msckf.h"
+#include "estimator/filter/position_fix.h"
 #include "estimator/filter/rest.h"
 #include "estimator/filter/track_table.h"
 
@@ -50,6 +51,7 @@ struct Estimator::State {
   void process();
   bool process_frames();
   bool process_fixes();
+  bool believe(const PositionFix& fix);
   bool follow();
   void advance(UTime to);
   void use(const FeatureFrame& frame, const Masks& masks);
@@ -74,6 +76,7 @@ struct Estimator::State {
   };
   std::deque<WaitingFrame> frames;
   std::deque<PositionFix> fixes;
+  RefusedFixes refused_fixes;
   std::optional<FeatureFrame> last_frame;
   int same_images = 0;
 

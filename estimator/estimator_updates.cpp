@@ -71,12 +71,27 @@ bool Estimator::State::process_fixes() {
     fixes.pop_front();
     if (fix.at > filter_at) advance(fix.at);
     switch (use_fix(*filter, filter_at, fix)) {
-      case FixOutcome::Used: changed = true; break;
+      case FixOutcome::Used:
+        refused_fixes.clear();
+        changed = true;
+        break;
       case FixOutcome::TooOld: note(Trouble::FixLate); break;
-      case FixOutcome::Contradicts: note(Trouble::FixContradicts); break;
+      case FixOutcome::Contradicts:
+        note(Trouble::FixContradicts);
+        changed = believe(fix) || changed;
+        break;
     }
   }
   return changed;
+}
+
+bool Estimator::State::believe(const PositionFix& fix) {
+  const auto offset = fix_offset(*filter, filter_at, fix);
+  if (!offset || !refused_fixes.add(fix, *offset)) return false;
+  refused_fixes.clear();
+  widen_by(*offset, *filter);
+  use_fix(*filter, filter_at, fix);
+  return true;
 }
 
 bool Estimator::State::follow() {

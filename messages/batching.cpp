@@ -16,6 +16,7 @@ namespace {
 struct Load {
   std::size_t items = 0;
   bool has_shares = false;  ///< each item has shares of α
+  bool has_axes = false;    ///< they differ between the axes, so all shares of the message are those of an axis
 };
 
 /// The properties of a set of type T: its list, the load of an entry, and the set's time.
@@ -28,13 +29,15 @@ struct Kind<TrackSet> {
   static constexpr auto kTime = &TrackSet::made_at;
   static constexpr std::size_t kMaxEntries = kMaxTracksPerBatch;
   static constexpr std::size_t kMaxItems = kMaxPiecesPerBatch;
-  static Load load(const Track& track) { return {track.motion.pieces.size(), track.kind == TrackKind::Estimated}; }
+  static Load load(const Track& track) {
+    return {track.motion.pieces.size(), track.kind == TrackKind::Estimated, !is_same_on_all_axes(track)};
+  }
   static Track example(const Load& load) {
     Track track;
     track.kind = load.has_shares ? TrackKind::Estimated : TrackKind::Declared;
     track.motion.pieces.resize(load.items);
     track.alpha.resize(load.items, Vec3::Zero());
-    if (load.has_shares) track.shares.resize(load.items);
+    if (load.has_shares) track.shares.resize(load.items, on_all_axes({1.0F, 1.0F, 1.0F, 1.0F}));
     return track;
   }
 };
@@ -61,12 +64,14 @@ template <class T>
 class Room {
  public:
   bool take(const Load& load) {
-    const std::size_t bytes = bytes_ + per_entry() + load.items * (load.has_shares ? per_item(true) : per_item(false));
-    if (entries_ + 1 > Kind<T>::kMaxEntries || items_ + load.items > Kind<T>::kMaxItems || bytes > kMaxMessageBytes)
-      return false;
-    ++entries_;
-    items_ += load.items;
-    bytes_ = bytes;
+    Room with = *this;
+    ++with.entries_;
+    with.items_ += load.items;
+    with.shares_ += load.has_shares ? load.items : 0;
+    with.has_axes_ = has_axes_ || load.has_axes;
+    const bool is_full = with.entries_ > Kind<T>::kMaxEntries || with.items_ > Kind<T>::kMaxItems;
+    if (is_full || with.bytes() > kMaxMessageBytes) return false;
+    *this = with;
     return true;
   }
 
@@ -79,13 +84,21 @@ class Room {
     static const std::size_t bytes = encoded_bytes<T>(1, {}) - empty();
     return bytes;
   }
-  static std::size_t per_item(bool has_shares) {
-    static const std::size_t alone = encoded_bytes<T>(1, {1, false}) - encoded_bytes<T>(1, {});
-    static const std::size_t shared = encoded_bytes<T>(1, {1, true}) - encoded_bytes<T>(1, {});
-    return has_shares ? shared : alone;
+  static std::size_t per_item() {
+    static const std::size_t bytes = encoded_bytes<T>(1, {1}) - encoded_bytes<T>(1, {});
+    return bytes;
+  }
+  static std::size_t per_share() {
+    static const std::size_t bytes = encoded_bytes<T>(1, {1, true}) - encoded_bytes<T>(1, {1});
+    return bytes;
+  }
+  [[nodiscard]] std::size_t bytes() const {
+    const std::size_t lists = has_axes_ ? 3 : 1;
+    return empty() + entries_ * per_entry() + items_ * per_item() + lists * shares_ * per_share();
   }
 
-  std::size_t entries_ = 0, items_ = 0, bytes_ = empty();
+  std::size_t entries_ = 0, items_ = 0, shares_ = 0;
+  bool has_axes_ = false;
 };
 
 template <class T>
@@ -159,7 +172,10 @@ std::vector<Load> shared_out(std::vector<Load> loads, std::size_t share) {
   const auto most = static_cast<std::size_t>(kMaxPiecesPerBatch);
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const std::size_t fair = 2 * k < loads.size() ? 2 * share : share;
-    loads[k].items = std::min(loads[k].items, std::clamp<std::size_t>(fair, 1, most));
+    const std::size_t items = std::min(loads[k].items, std::clamp<std::size_t>(fair, 1, most));
+    // Merged pieces have shares of their own on each axis.
+    loads[k].has_axes = loads[k].has_axes || (loads[k].has_shares && items < loads[k].items);
+    loads[k].items = items;
   }
   return loads;
 }
@@ -209,6 +225,12 @@ T join(std::vector<T> batches) {
 }
 
 }  // namespace
+
+bool is_same_on_all_axes(const Track& track) {
+  return std::ranges::all_of(track.shares, [](const AlphaShares& shares) {
+    return std::ranges::all_of(shares, [](const auto& of) { return of[0] == of[1] && of[1] == of[2]; });
+  });
+}
 
 std::size_t pieces_for_each(std::size_t tracks, std::size_t single) {
   return largest_share([&](std::size_t share) {

@@ -17,7 +17,7 @@ namespace tern {
 ///
 /// 1. Each track in the first half of the order is resampled to at most 2s pieces, each other track to at most s
 ///    pieces. The error goes into α (core/world/resampling.h). s is the largest number for which all tracks fit.
-/// 2. About 1900 tracks fit with one piece each. Further ones are left out, the last ones first.
+/// 2. About 1900 tracks fit with one piece each, or 1500 with shares. Further ones are left out, the last ones first.
 /// 3. A track is also left out if resampling takes its numbers out of a message's ranges (α beyond 1e6 m, pieces of
 ///    weeks).
 ///
@@ -25,6 +25,10 @@ namespace tern {
 /// if tracks are resampled.
 std::vector<TrackSet> split_batches(const TrackSet& whole);
 std::vector<ObstacleTruth> split_batches(const ObstacleTruth& whole);
+
+/// True if the shares of α of each piece are the same on all axes. A message has one list of shares for each piece if
+/// this holds for all of its tracks, else three.
+bool is_same_on_all_axes(const Track& track);
 
 /// Returns the largest n for which one set holds `tracks` declared tracks of n pieces each and `single` tracks of one
 /// piece each. It is at most kMaxPiecesPerBatch, and 0 if the tracks do not fit even with n = 1. O(tracks).

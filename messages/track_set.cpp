@@ -1,3 +1,4 @@
+#include "messages/batching.h"
 #include "messages/form.h"
 #include "tern_msgs/track_set_t.hpp"
 
@@ -39,14 +40,28 @@ CubicPiece read_piece(wire::FieldReader& read, const tern_msgs::track_piece_t& m
   return piece;
 }
 
-AlphaShares read_shares(wire::FieldReader& read, const tern_msgs::alpha_shares_t& m) {
+// @param of_piece  the shares of all axes, or of each axis; of a damaged message none
+AlphaShares read_shares(wire::FieldReader& read, std::span<const tern_msgs::alpha_shares_t> of_piece) {
   AlphaShares shares{};
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    shares[k] = static_cast<float>(read.named("shares").number(m.at[k], wire::kAboveZero, 1.0));
-    read.consistent(k == 0 || m.at[k] <= m.at[k - 1], "shares of alpha grow");
+  for (std::size_t axis = 0; axis < of_piece.size(); ++axis) {
+    const tern_msgs::alpha_shares_t& m = of_piece[axis];
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      shares[k][axis] = static_cast<float>(read.named("shares").number(m.at[k], wire::kAboveZero, 1.0));
+      read.consistent(k == 0 || m.at[k] <= m.at[k - 1], "shares of alpha grow");
+      if (of_piece.size() == 1) shares[k].fill(shares[k][axis]);
+    }
   }
   return shares;
 }
+
+std::size_t estimated_pieces(const tern_msgs::track_set_t& m) {
+  std::size_t pieces = 0;
+  for (const tern_msgs::track_t& track : m.tracks) {
+    if (track.kind == tern_msgs::track_t::ESTIMATED) pieces += static_cast<std::size_t>(std::max(0, track.piece_count));
+  }
+  return pieces;
+}
+
 
 }  // namespace
 
@@ -58,7 +73,7 @@ struct wire::Form<TrackSet> {
   static constexpr Layout kLayout{
       Array{&Message::track_count, &Message::tracks, 0, kMaxTracksPerBatch},
       Array{&Message::piece_count, &Message::pieces, 0, kMaxPiecesPerBatch},
-      Array{&Message::share_count, &Message::shares, 0, kMaxPiecesPerBatch},
+      Array{&Message::share_count, &Message::shares, 0, 3 * kMaxPiecesPerBatch},
   };
 
   static void fields(auto& io, auto& m, auto& set) {
@@ -77,20 +92,26 @@ struct wire::Form<TrackSet> {
   }
 
   static void write_rest(Message& m, const TrackSet& set) {
+    const std::size_t axes = std::ranges::all_of(set.tracks, is_same_on_all_axes) ? 1 : 3;
     for (std::size_t k = 0; k < set.tracks.size(); ++k) {
       const Track& track = set.tracks[k];
       require_complete(track);
       m.tracks[k].piece_count = static_cast<std::int32_t>(track.motion.pieces.size());
       for (std::size_t i = 0; i < track.alpha.size(); ++i)
         m.pieces.push_back(write_piece(track.motion.pieces[i], track.alpha[i]));
-      for (const AlphaShares& shares : track.shares)
-        std::copy(shares.begin(), shares.end(), m.shares.emplace_back().at);
+      for (const AlphaShares& shares : track.shares) {
+        for (std::size_t axis = 0; axis < axes; ++axis) {
+          tern_msgs::alpha_shares_t& to = m.shares.emplace_back();
+          for (std::size_t level = 0; level < shares.size(); ++level) to.at[level] = shares[level][axis];
+        }
+      }
     }
   }
 
   static void read_rest(FieldReader& read, const Message& m, TrackSet& set) {
     Slices pieces(m.pieces);
     Slices shares(m.shares);
+    const std::size_t axes = m.shares.size() == estimated_pieces(m) ? 1 : 3;
     std::vector<std::int64_t> ids;
     for (std::size_t k = 0; k < set.tracks.size(); ++k) {
       Track& track = set.tracks[k];
@@ -103,8 +124,8 @@ struct wire::Form<TrackSet> {
         track.alpha.push_back(read.named("alpha").extents(piece.alpha));
       }
       if (track.kind == TrackKind::Estimated) {
-        for (const tern_msgs::alpha_shares_t& share : shares.take(count))
-          track.shares.push_back(read_shares(read, share));
+        for (std::size_t piece = 0; piece < count; ++piece)
+          track.shares.push_back(read_shares(read, shares.take(axes)));
       }
       if (track.kind == TrackKind::Static)
         read.consistent(rests(track.motion.pieces), "a static track moves, or has several pieces");

@@ -34,6 +34,24 @@ std::vector<Vec3> rows_of(const py::object& value, const char* name, std::size_t
   return rows;
 }
 
+// Shares of n pieces: (n, levels) for all axes, or (n, levels, 3).
+std::vector<AlphaShares> shares_of(const py::object& shares, std::size_t n) {
+  const auto rows = static_cast<py::ssize_t>(n);
+  const bool has_axes = py::array(shares).ndim() == 3;
+  const Doubles all = has_axes ? doubles_of(shares, "shares", {rows, kLevels - 1, 3})
+                               : doubles_of(shares, "shares", {rows, kLevels - 1});
+  std::vector<AlphaShares> of_pieces(n);
+  for (py::ssize_t k = 0; k < rows; ++k) {
+    for (py::ssize_t level = 0; level < kLevels - 1; ++level) {
+      for (py::ssize_t axis = 0; axis < 3; ++axis) {
+        of_pieces[idx(k)][idx(level)][idx(axis)] =
+            static_cast<float>(has_axes ? all.at(k, level, axis) : all.at(k, level));
+      }
+    }
+  }
+  return of_pieces;
+}
+
 Track track_of(std::int64_t id, const std::string& kind, const py::object& half_extents, std::int64_t start_us,
                const py::object& durations_us, const py::object& coefficients, const py::object& alpha,
                const py::object& shares, double top_speed) {
@@ -62,15 +80,9 @@ Track track_of(std::int64_t id, const std::string& kind, const py::object& half_
   }
   track.alpha = rows_of(alpha, "alpha", n);
   if (!shares.is_none()) {
-    const Doubles all = doubles_of(shares, "shares", {static_cast<py::ssize_t>(n), kLevels - 1});
-    for (std::size_t k = 0; k < n; ++k) {
-      AlphaShares& own = track.shares.emplace_back();
-      for (std::size_t level = 0; level < own.size(); ++level) {
-        own[level] = static_cast<float>(all.at(static_cast<py::ssize_t>(k), static_cast<py::ssize_t>(level)));
-      }
-    }
+    track.shares = shares_of(shares, n);
   } else if (track.kind == TrackKind::Estimated) {
-    track.shares.assign(n, {1.0F, 1.0F, 1.0F, 1.0F});
+    track.shares.assign(n, on_all_axes({1.0F, 1.0F, 1.0F, 1.0F}));
   }
   return checked(std::move(track));
 }
@@ -207,8 +219,9 @@ void bind_track(py::module_& m) {
            "alpha"_a = 0.0, "shares"_a = py::none(), "top_speed"_a = 0.0,
            "kind: static, declared or estimated. half_extents: m. durations_us (n,): of the pieces. coefficients "
            "(n, 3, 4): of tau^3, tau^2, tau and 1 per axis of W, tau in s since the piece's start; m/s^3 … m. alpha "
-           "(n, 3): half-extents of the error box, m. shares (n, 4): of alpha at the lower levels of confidence, only "
-           "estimated. top_speed: m/s per axis, at which the box grows before and after its pieces.")
+           "(n, 3): half-extents of the error box, m. shares (n, 4), or (n, 4, 3) per axis: of alpha at the lower "
+           "levels of "
+           "confidence, only estimated. top_speed: m/s per axis, at which the box grows before and after its pieces.")
       .def_static("static", &still, "id"_a, "centre"_a, "half_extents"_a, "start_us"_a = 1'000'000,
                   "A box that never moves (W, m).")
       .def_static("through", &through, "id"_a, "half_extents"_a, "times_us"_a, "positions"_a, "velocities"_a,

@@ -18,7 +18,7 @@ struct AlphaShare {
 
   /// Returns the applied α of a piece, m.
   [[nodiscard]] Vec3 of(const Track& track, std::size_t piece) const {
-    const auto at = [&](std::size_t k) -> Vec3 { return (scale * track.share_at(k, level)) * track.alpha[k]; };
+    const auto at = [&](std::size_t k) -> Vec3 { return scale * track.alpha_at(k, level); };
     return piece <= grows_to ? at(piece) : Vec3(at(piece).cwiseMin(at(grows_to)));
   }
 };

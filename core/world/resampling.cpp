@@ -181,12 +181,10 @@ class Merger {
     AlphaShares shares{};
     for (std::size_t k = 0; k < shares.size(); ++k) {
       const Vec3 at_level = alpha_at(run, static_cast<int>(k) + 1);
-      double share = 0.0;
       for (int axis = 0; axis < 3; ++axis) {
-        if (at_level[axis] > 0.0) share = std::max(share, at_level[axis] / alpha[axis]);
+        shares[k][idx(axis)] =
+            std::min(share_of(at_level[axis], alpha[axis]), k == 0 ? 1.0F : shares[k - 1][idx(axis)]);
       }
-      const float up = std::nextafter(static_cast<float>(share), 2.0F);
-      shares[k] = std::min(up, k == 0 ? 1.0F : shares[k - 1]);
     }
     return shares;
   }
@@ -200,7 +198,7 @@ class Merger {
     for (std::size_t k = run.first; k <= run.last; ++k) {
       const CubicPiece& original = track_.motion.pieces[k];
       const double h = original.duration.seconds();
-      const Vec3 own = track_.share_at(k, level) * track_.alpha[k];
+      const Vec3 own = track_.alpha_at(k, level);
       const Vec3 rounding = kUnit * (terms + magnitude(original.coefficients, h) + own);
       alpha = alpha.cwiseMax(own + deviation(q, original.coefficients, since.seconds(), h) + rounding);
       since = since + original.duration;

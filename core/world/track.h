@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,9 +34,20 @@ inline double confidence_at(double set_confidence, int level) {
   return is_of_set ? set_confidence : std::min(set_confidence, kConfidenceLevels[idx(level)]);
 }
 
-/// The shares of one piece: α at level k ≥ 1 is shares[k − 1] times α, on all axes. Each lies in (0, 1]; they do not
-/// increase with k.
-using AlphaShares = std::array<float, kConfidenceLevels.size() - 1>;
+/// The shares of one piece: α at level k ≥ 1, on an axis of W, is shares[k − 1][axis] times α. Each lies in (0, 1].
+/// They do not increase with k.
+using AlphaShares = std::array<std::array<float, 3>, kConfidenceLevels.size() - 1>;
+/// Returns shares that are the same on all axes.
+inline AlphaShares on_all_axes(const std::array<float, kConfidenceLevels.size() - 1>& of_levels) {
+  AlphaShares shares;
+  for (std::size_t k = 0; k < shares.size(); ++k) shares[k].fill(of_levels[k]);
+  return shares;
+}
+/// Returns the share that `part` is of `alpha` on one axis, rounded up to the next float. @pre 0 ≤ part ≤ alpha
+inline float share_of(double part, double alpha) {
+  const double share = part > 0.0 ? part / alpha : 0.0;
+  return std::nextafter(std::max(static_cast<float>(share), std::numeric_limits<float>::min()), 2.0F);
+}
 
 /// One obstacle over time: an axis-aligned box, which contains all rotations of its shape, moves along cubic pieces.
 /// At each time t of piece k the true box lies within box_around(p(t), half_extents + alpha[k]), with the set's
@@ -48,10 +61,12 @@ struct Track {
   std::vector<AlphaShares> shares;   ///< per piece; empty: α is the same at all levels (Static, Declared)
   double top_speed = 0.0;  ///< m/s per axis, ≥ 0: before the first and after the last piece the box grows at this speed
 
-  /// Returns the share of α at a level, 0 … kLevels − 1; it lies in (0, 1].
-  [[nodiscard]] double share_at(std::size_t piece, int level) const {
-    if (level == 0 || shares.empty()) return 1.0;
-    return static_cast<double>(shares[piece][idx(level - 1)]);
+  /// Returns α of a piece at a level, 0 … kLevels − 1, m.
+  [[nodiscard]] Vec3 alpha_at(std::size_t piece, int level) const {
+    Vec3 at = alpha[piece];
+    if (level == 0 || shares.empty()) return at;
+    for (int axis = 0; axis < 3; ++axis) at[axis] *= static_cast<double>(shares[piece][idx(level - 1)][idx(axis)]);
+    return at;
   }
 
   /// Returns a box that contains box and α at all times in [t0, t1]; the times may lie outside the pieces.

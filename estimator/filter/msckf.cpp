@@ -123,6 +123,14 @@ void Msckf::correct(const MatrixXd& H, const VectorXd& r, Index first) {
   }
 }
 
+void Msckf::add_common_error(const Eigen::Matrix<double, 6, 6>& D) {
+  std::vector<Index> poses{kTheta};
+  for (std::size_t k = 0; k < clones_.size(); ++k) poses.push_back(column(k));
+  for (const Index row : poses) {
+    for (const Index col : poses) P_.block<6, 6>(row, col) += D;
+  }
+}
+
 bool Msckf::is_finite() const {
   return P_.allFinite() && nav_.R.allFinite() && nav_.p.allFinite() && nav_.v.allFinite() &&
          nav_.gyro_bias.allFinite() && nav_.accel_bias.allFinite();

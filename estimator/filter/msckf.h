@@ -56,6 +56,11 @@ class Msckf {
   /// Corrects the state by a residual r = H ε + n, n ~ N(0, 1), of the errors from column `first` on.
   void correct(const Eigen::MatrixXd& H, const Eigen::VectorXd& r, Eigen::Index first);
 
+  /// Adds an error of the whole path, a rigid motion in W: the error (θ, e_p) of each pose has it in common. The
+  /// errors of poses relative to each other stay.
+  /// @param D  its covariance
+  void add_common_error(const Eigen::Matrix<double, 6, 6>& D);
+
   [[nodiscard]] const NavState& nav() const { return nav_; }
   [[nodiscard]] const std::vector<Clone>& clones() const { return clones_; }
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return P_; }

@@ -10,6 +10,9 @@
 namespace tern {
 namespace {
 
+/// The drift of an estimate without fixes, as a share of its way.
+constexpr double kDriftShare = 0.05;
+
 using Eigen::Index;
 using Eigen::Matrix3d;
 
@@ -79,6 +82,37 @@ std::optional<FixRows> fix_rows(const Msckf& filter, UTime filter_at, const Posi
     r[3] = std::remainder(fix.yaw - std::atan2(R(1, 0), R(0, 0)), 2.0 * std::numbers::pi) / std::sqrt(fix.yaw_variance);
   }
   return FixRows{std::move(H), std::move(r)};
+}
+
+std::optional<FixOffset> fix_offset(const Msckf& filter, UTime filter_at, const PositionFix& fix) {
+  const auto rows = fix_rows(filter, filter_at, fix);
+  if (!rows) return std::nullopt;
+  const double yaw = fix.has_yaw ? rows->r[3] * std::sqrt(fix.yaw_variance) : 0.0;
+  return FixOffset{rows->r.head<3>().cwiseProduct(fix.variance.cwiseSqrt()), yaw};
+}
+
+bool RefusedFixes::add(const PositionFix& fix, const FixOffset& offset) {
+  const Vec3 moved = (fix.position - offset.position) - (first_.position - first_offset_.position);
+  const Vec3 noise = 3.0 * (fix.variance + first_.variance).cwiseSqrt();
+  const double yaw_noise = 3.0 * std::sqrt(fix.yaw_variance + first_.yaw_variance);
+  const Vec3 apart = (offset.position - first_offset_.position).cwiseAbs();
+  const bool agrees = count_ > 0 && fix.has_yaw == first_.has_yaw &&
+                      ((apart - noise).array() <= kDriftShare * moved.norm()).all() &&
+                      std::abs(offset.yaw - first_offset_.yaw) <= yaw_noise;
+  if (!agrees) {
+    count_ = 0;
+    first_ = fix;
+    first_offset_ = offset;
+  }
+  return ++count_ >= kBelievedFixes;
+}
+
+void widen_by(const FixOffset& offset, Msckf& filter) {
+  Eigen::Matrix<double, 6, 1> turn;
+  turn << Vec3::UnitZ(), skew(filter.nav().p) * Vec3::UnitZ();
+  Eigen::Matrix<double, 6, 6> D = offset.yaw * offset.yaw * turn * turn.transpose();
+  D.bottomRightCorner<3, 3>() += offset.position.squaredNorm() * Matrix3d::Identity();
+  filter.add_common_error(D);
 }
 
 FixOutcome use_fix(Msckf& filter, UTime filter_at, const PositionFix& fix) {

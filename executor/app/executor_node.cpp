@@ -52,6 +52,7 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
 
 /// Simulator, bridge and planner count the requests that they received, also those of an executor before this one.
 void ExecutorNode::on_heartbeat(const Heartbeat& heartbeat) {
+  map_watch_.add(heartbeat, bus_.received());
   if (executor_) return;
   const auto requests = heartbeat.channels.find(channels::kHorizonRequest.name);
   if (requests != heartbeat.channels.end() && requests->second.received > 0) has_flown_ = true;
@@ -178,7 +179,7 @@ void ExecutorNode::begin(const UavState& state) {
   executor_.emplace(uav_, state, config_);
   heading_.clear();
   update_tube(state.at);
-  if (goal_) executor_->set_mode(goal_->mode);
+  update_mode();
   use_speed_limit();
   if (following_) executor_->begin(bus_.clock().now());
   began_following_ = following_;
@@ -259,7 +260,7 @@ void ExecutorNode::on_goal(const Goal& goal) {
   goal_ = goal;
   speed_limit_ = next_speed_limit_ && next_speed_limit_->goal_id == goal.id ? next_speed_limit_ : std::nullopt;
   next_goal_ = bus_.clock().now();
-  if (executor_) executor_->set_mode(goal.mode);
+  update_mode();
   use_speed_limit();
 }
 
@@ -302,6 +303,15 @@ void ExecutorNode::on_heading(const PlanHeading& heading) {
             to_string(adoption.verdict), adoption.detail);
 }
 
+void ExecutorNode::update_mode() {
+  const std::string trouble = map_watch_.trouble(bus_.clock().now());
+  if (trouble.empty() != map_trouble_.empty())
+    log::warn("{}", trouble.empty() ? "the live map is kept up to date again: plans are requested"
+                                    : trouble + ": no plans are requested, the trajectory is flown to its end");
+  map_trouble_ = trouble;
+  if (executor_ && goal_) executor_->set_mode(trouble.empty() ? goal_->mode : GoalMode::Stop);
+}
+
 UTime ExecutorNode::next_wakeup() const {
   UTime next = goal_ ? next_goal_ : kNever;
   if (!executor_ || !lost_.empty()) return next;
@@ -312,6 +322,7 @@ UTime ExecutorNode::next_wakeup() const {
 
 void ExecutorNode::step(UTime now) {
   update_following(now);
+  update_mode();
   if (executor_ && lost_.empty()) {
     fall_silent_if_held_up(now);
     const auto due = silent_since_ ? std::nullopt : executor_->next_wakeup();
@@ -383,6 +394,7 @@ NodeHealth ExecutorNode::health() const {
   if (!refused_start_.empty()) return {ProcessState::Waiting, refused_start_};
   if (!executor_) return {ProcessState::Waiting, "a vehicle at rest (UAV_STATE)" + refusal_text()};
   if (status_.following && !following_) return {ProcessState::Waiting, reason_not_to_follow(now) + refusal_text()};
+  if (!map_trouble_.empty()) return {ProcessState::Waiting, map_trouble_};
   if (refused_goal_ && now - refused_goal_->second < kGoalRefusedReported) {
     return {ProcessState::Ready,
             fmt::format("refused a goal: its id {} is in use for another one", refused_goal_->first)};

@@ -12,6 +12,7 @@
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
 #include "core/world/vehicle_status.h"
+#include "executor/app/live_map_watch.h"
 #include "executor/committed_heading.h"
 #include "executor/estimate_resets.h"
 #include "executor/executor.h"
@@ -53,6 +54,7 @@ namespace tern {
 /// | the vehicle follows for the first time         | Holding   | the yaw starts at the measured yaw                  |
 /// | the estimator is reset after the first time    | any       | the tube grows by the shift                         |
 /// | a PLAN_HEADING that CommittedHeading adopts    | Following | the yaw turns along it, else along the flight       |
+/// | a live map is no longer kept (LiveMapWatch)    | any       | as mode Stop, until it is kept again                |
 ///
 /// - A rejoin commits to a braking trajectory from the measured state; the next plan starts on it.
 /// - The yaw starts at the measured one because estimators correct it during take-off.
@@ -87,6 +89,8 @@ class ExecutorNode final : public Node {
   void on_plan(const Plan& plan);
   void on_heading(const PlanHeading& heading);
   void on_heartbeat(const Heartbeat& heartbeat);
+  /// The goal's mode applies, or mode Stop while a live map is old (LiveMapWatch).
+  void update_mode();
   /// Decides whether the vehicle follows, and acts if that has changed.
   void update_following(UTime now);
   /// Why the vehicle does not follow, in words; empty if it does.
@@ -122,6 +126,8 @@ class ExecutorNode final : public Node {
   std::optional<Goal> goal_;
   std::optional<SpeedLimit> speed_limit_, next_speed_limit_;  ///< of goal_; of a goal to come
   VehicleInputs inputs_;
+  LiveMapWatch map_watch_;
+  std::string map_trouble_;  ///< of map_watch_, when it was last asked
   RejoinGuard guard_;
   VehicleStatus status_;          ///< newest; does not follow before the first
   Vec3 measured_ = Vec3::Zero();  ///< position, newest, m, W

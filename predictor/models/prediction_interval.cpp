@@ -19,15 +19,6 @@ MotionSample sample_of(const Waypoint& waypoint) {
   return sample;
 }
 
-// The largest of the axes' shares, rounded up to the next float.
-float share_of(const Vec3& part, const Vec3& alpha) {
-  double share = std::numeric_limits<float>::min();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (part[axis] > 0.0) share = std::max(share, part[axis] / alpha[axis]);
-  }
-  return std::nextafter(static_cast<float>(share), 2.0F);
-}
-
 }  // namespace
 
 std::vector<Duration> piece_ends(const PredictionSpec& spec) {
@@ -76,8 +67,10 @@ void set_motion(const std::vector<Waypoint>& waypoints, const std::vector<Durati
     track.alpha.push_back(largest.front());
     AlphaShares shares{};
     for (std::size_t level = 0; level < shares.size(); ++level) {
-      const float before = level == 0 ? 1.0F : shares[level - 1];
-      shares[level] = std::min(before, share_of(largest[level + 1], largest.front()));
+      for (int axis = 0; axis < 3; ++axis) {
+        const float before = level == 0 ? 1.0F : shares[level - 1][idx(axis)];
+        shares[level][idx(axis)] = std::min(before, share_of(largest[level + 1][axis], largest.front()[axis]));
+      }
     }
     track.shares.push_back(shares);
   }

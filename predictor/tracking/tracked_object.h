@@ -11,6 +11,7 @@
 #include "predictor/models/axis_filter.h"
 #include "predictor/models/learnt_model.h"
 #include "predictor/models/model_bank.h"
+#include "predictor/tracking/axis_rest.h"
 
 namespace tern {
 
@@ -34,6 +35,7 @@ struct TrackedObject {
   /// The place of rest, after the resting hypothesis failed there. A detection beyond kJumpGate of it confirms a start;
   /// after mere noise the track rests there again.
   std::optional<std::array<AxisFilter, 3>> stood;
+  std::array<AxisRest, 3> rest_of_axes;
   bool is_sighted = false;  ///< a track by sightings: `moving` and `resting` are about the anchor of `faces`
   FaceBox faces;
   int misses = 0;                 ///< of a track by sightings: looked for and not found, less those found since, ≥ 0

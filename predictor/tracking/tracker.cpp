@@ -122,7 +122,7 @@ void Tracker::advance(State& state, const ObservationSet& observations, const Ve
     }
     if (d != kNoDetection) {
       if (object.detections == 1 && !object.confirmed) ++state.existence.again;
-      update_track(object, detections[static_cast<std::size_t>(d)], observations, state.rest);
+      update_track(object, detections[static_cast<std::size_t>(d)], observations, state);
     }
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
   }
@@ -156,17 +156,20 @@ void Tracker::predict_to(State& state, UTime at) const {
     for (TrackedObject& object : *objects) {
       object.moving.predict(step);
       for (AxisFilter& axis : object.resting) axis.predict(dt, kRestingSigma * kRestingSigma);
+      for (AxisRest& axis : object.rest_of_axes) axis.filter.predict(dt, kRestingSigma * kRestingSigma);
     }
   }
   state.at = at;
 }
 
 void Tracker::update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from,
-                           RestRecord& rest) const {
+                           State& state) const {
+  RestRecord& rest = state.rest;
   const bool rested = object.confirmed && is_stationary(object);
   const UTime seen = object.last_seen;
   const std::array<AxisFilter, 3> stood = object.resting;
   update_track(object, detection, from);
+  update_rest_of_axes(object, detection, from.at, seen, state.rest_of_axes);
   if (rested && object.resting_since == from.at) {
     object.stood = stood;
     // Its new speed is as unknown as that of a new track.
@@ -224,6 +227,7 @@ TrackedObject Tracker::start_track(const Detection& detection, const Observation
   object.variance = detection.variance;
   const double speed = config_.prediction.max_speed;
   object.resting = start_filters(detection, speed * speed / 3.0);  // uniform in ±speed
+  for (int axis = 0; axis < 3; ++axis) object.rest_of_axes[idx(axis)] = {object.resting[idx(axis)], from.at, 1.0, {}};
   restart(object, detection, from);
   object.confirmed = config_.confirm_hits <= 1;
   return object;
@@ -249,9 +253,7 @@ bool Tracker::is_stationary(const TrackedObject& object) const {
     const bool is_sound = object.rejected == std::array<int, 3>{};
     return is_sound && object.faces.positions() >= kAxesToRest && object.is_rest_known;
   }
-  return std::ranges::all_of(object.resting, [](const AxisFilter& axis) {
-    return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));
-  });
+  return std::ranges::all_of(object.resting, is_slow);
 }
 
 bool Tracker::is_remembered(const TrackedObject& object, UTime at) const {

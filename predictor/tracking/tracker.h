@@ -1,7 +1,9 @@
 // Tracks obstacles from noisy, late, anonymous detections, and predicts them. The steps: docs/prediction.md.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -41,6 +43,9 @@ inline constexpr double kRestingSigma = 0.01;
 /// standard deviations of 0.56.
 inline constexpr double kRestingLimit = 5.3;
 inline constexpr double kRestingForgetting = 0.1;
+/// The same for one axis, with the same probability of a false alarm, some 3e-4 for an update. The average is about
+/// that of 19 independent χ²₁, and kRestingLimit is about that of 57.
+inline constexpr double kAxisRestLimit = 2.5;
 /// A tentative track whose sensor is silent is deleted this long after its last detection: 15 frames at 10 Hz.
 inline constexpr Duration kTentativeUnseen{1'500'000};
 /// A track that has left its sensor's range is published while its α at the start is at most this, m.
@@ -61,6 +66,10 @@ inline constexpr int kMissesToHide = 2;
 /// A stationary track has on each axis a speed of at most kRestingSpeed, m/s, or of this many standard deviations.
 inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
+/// True if a resting hypothesis agrees with speed 0.
+inline bool is_slow(const AxisFilter& axis) {
+  return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));
+}
 /// TRACK_BOUNDS reports the bounds at the end of the piece that contains this time ahead.
 inline constexpr Duration kBoundsAhead{1'000'000};
 
@@ -186,6 +195,10 @@ class Tracker {
   [[nodiscard]] std::int32_t left_out() const;
   /// True if the track is predicted at rest.
   [[nodiscard]] bool is_stationary(const TrackedObject& object) const;
+  /// True if a track that moves is predicted at rest on this axis of W.
+  [[nodiscard]] bool is_stationary(const TrackedObject& object, int axis) const;
+  /// The records of rest of the axes of W, at newest().
+  [[nodiscard]] const AxisRestRecords& rest_of_axes() const { return newest_state().rest_of_axes; }
   /// The weights of the models and the margins. They lag by kReorderWindow.
   [[nodiscard]] const PredictionScorer& scorer() const { return scorer_; }
   /// The weights and the class with which an object of objects() is predicted.
@@ -206,6 +219,7 @@ class Tracker {
     std::int64_t next_id = kFirstOwnTrackId;
     std::vector<TrackedObject> objects, sighted;
     RestRecord rest;
+    AxisRestRecords rest_of_axes;
     ExistenceRecord existence;
     SizeRecord sizes;
   };
@@ -232,7 +246,7 @@ class Tracker {
   void limit_hidden_ends(TrackedObject& object, const SensorView& view) const;
   /// Updates a track with its sighting. @param common  variance of the frame at its place, m²
   void update_faces(TrackedObject& object, const Sighting& sighting, double common, const ObservationSet& from,
-                    RestRecord& rest) const;
+                    State& state) const;
   [[nodiscard]] TrackedObject start_faces(const Sighting& sighting, double common, const ObservationSet& from,
                                           std::int64_t id) const;
   /// The predicted anchor of a track by sightings: by its resting filters if it is stationary.
@@ -240,8 +254,10 @@ class Tracker {
   [[nodiscard]] bool is_lost(const TrackedObject& object, UTime at) const;
   void predict_to(State& state, UTime at) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
-  void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from,
-                    RestRecord& rest) const;
+  void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from, State& state) const;
+  /// Updates the resting hypotheses of the axes. @param seen  time of the last detection before this one
+  void update_rest_of_axes(TrackedObject& object, const Detection& detection, UTime at, UTime seen,
+                           AxisRestRecords& records) const;
   [[nodiscard]] TrackedObject start_track(const Detection& detection, const ObservationSet& from,
                                           std::int64_t id) const;
   [[nodiscard]] bool is_expired(const TrackedObject& object, const ObservationSet& observations) const;
@@ -283,6 +299,9 @@ class Tracker {
   };
   [[nodiscard]] const std::vector<LearntCoefficients>& learnt_coefficients(std::size_t group, UTime last_seen,
                                                                            PredictionInputs& inputs) const;
+  /// Makes the half-widths of a track that moves narrow on the axes on which it rests. @param waypoints  at ends_
+  void narrow_resting_axes(const TrackedObject& object, const State& state, UTime from,
+                           std::vector<Waypoint>& waypoints) const;
   [[nodiscard]] Forecast moving(const TrackedObject& object, PredictionInputs& inputs) const;
   /// Appends the track of an object, unless it is not to be published. @param why  may be null
   void predict(const TrackedObject& object, PredictionInputs& inputs, std::vector<Track>& tracks,

@@ -155,6 +155,7 @@ void Tracker::predict(const TrackedObject& object, PredictionInputs& inputs, std
   if (!is_published(object, newest.existence)) return;
   const bool is_resting = is_stationary(object);
   auto [waypoints, bound] = is_resting ? at_rest(object, newest, inputs.from) : moving(object, inputs);
+  if (!is_resting) narrow_resting_axes(object, newest, inputs.from, waypoints);
   Track track;
   if (object.is_sighted) {
     const Box least = object.faces.completed(Vec3::Zero(), kReachSigmas);

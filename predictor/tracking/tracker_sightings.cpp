@@ -104,7 +104,7 @@ TrackedObject Tracker::start_faces(const Sighting& sighting, double common, cons
 }
 
 void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, double common, const ObservationSet& from,
-                           RestRecord& rest) const {
+                           State& state) const {
   const Vec3 predicted = anchor(object);
   AnchorMeasurement measured = object.faces.measure(predicted, sighting);
   const std::array<bool, 3> is_sound = reject_outliers(object, predicted, sighting, measured);
@@ -113,6 +113,7 @@ void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, doub
   const auto forget = [&](int axis) {
     object.moving.restart_axis(axis, predicted[axis], common);
     object.resting[idx(axis)] = {predicted[axis], 0.0, common, 0.0, kRestingSpeed * kRestingSpeed};
+    object.rest_of_axes[idx(axis)] = {object.resting[idx(axis)], from.at, 1.0, {}};
   };
   for (int axis = 0; axis < 3; ++axis) {
     if (measured.has[idx(axis)]) {
@@ -124,7 +125,7 @@ void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, doub
     if (!object.faces.has_position(axis)) forget(axis);
   }
   detection.half_extents = object.half_extents;
-  update_track(object, detection, from, rest);
+  update_track(object, detection, from, state);
   for (int axis = 0; axis < 3; ++axis) {
     if (object.born == from.at && !measured.has[idx(axis)]) forget(axis);  // it was restarted, at no place
   }
@@ -209,7 +210,7 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     ++object.age;
     object.hits <<= 1;
     object.misses = std::max(0, object.misses - 1);
-    update_faces(object, sighting, variance_at(middle(sighting), object.moving.lead().velocity()), from, state.rest);
+    update_faces(object, sighting, variance_at(middle(sighting), object.moving.lead().velocity()), from, state);
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
     if (const auto sizes = object.faces.measured_sizes(); sizes && object.confirmed) state.sizes.add(object.id, *sizes);
     found.push_back(grown(object.faces.completed(anchor(object)), Vec3::Constant(kPieceMargin)));

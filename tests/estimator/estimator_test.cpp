@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "estimator/filter/feature.h"
+#include "estimator/filter/position_fix.h"
 #include "tests/support/effort.h"
 #include "tests/support/vio_flight.h"
 
@@ -168,6 +169,43 @@ TEST(EstimatorFlights, AFixCorrectsT_WOAndItsWrongOneIsRefused) {
   }
   EXPECT_LT(error_of_estimate(with.estimate().value(), truth).sigma,
             error_of_estimate(without.estimate().value(), truth).sigma);
+}
+
+/// Flies with fixes of 5 Hz from 6 s on: `fix_at` says where. @return the error of the estimate to the last of them, m
+double error_to_fixes(const std::function<Vec3(double, const Vec3&)>& fix_at, std::int64_t* refused) {
+  const Flight flight;
+  Estimator estimator = flight.estimator();
+  double due = 6.0, error = 0.0;
+  for (const VioEvent& event : flight.events(4)) {
+    give(estimator, event);
+    if (!event.is_frame || event.t < due) continue;
+    due += 0.2;
+    PositionFix fix;
+    fix.at = event.sample.at;
+    fix.position = fix_at(event.t, event.truth.p);
+    fix.variance = Vec3::Constant(0.0025);
+    EXPECT_EQ(estimator.add(fix), InputOutcome::Used);
+    error = (estimator.estimate()->pose_in_W().p - fix.position).norm();
+  }
+  *refused = count(estimator, Trouble::FixContradicts);
+  return error;
+}
+
+TEST(EstimatorFlights, TenRefusedFixesThatAgreeAreBelieved) {
+  std::int64_t refused = 0;
+  const double error = error_to_fixes([](double, const Vec3& truth) { return Vec3(truth + Vec3(3, 1, 0)); }, &refused);
+  EXPECT_EQ(refused, kBelievedFixes);
+  EXPECT_LT(error, 0.3);
+}
+
+TEST(EstimatorFlights, FixesThatDisagreeOrStandStillAreNotBelieved) {
+  std::int64_t refused = 0;
+  int n = 0;
+  EXPECT_GT(error_to_fixes([&](double, const Vec3& p) { return Vec3(p + Vec3(0, ++n % 2 ? 3 : -3, 0)); }, &refused),
+            2.0);
+  EXPECT_GT(refused, 40);
+  EXPECT_GT(error_to_fixes([](double, const Vec3&) { return Vec3(100, 0, 0); }, &refused), 10.0);
+  EXPECT_GT(refused, 40);
 }
 
 TEST(EstimatorFlights, SameInputsGiveTheSameBits) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "executor/app/executor_node.h"
@@ -66,6 +67,16 @@ class VehicleTrouble : public ::testing::Test {
       }
       runner_.run(runner_.now() + Duration{10'000});
     }
+  }
+  /// Sends one HEARTBEAT of tern-mapper. @param is_live  whether it receives scans
+  void send_mapper(ProcessState state, const std::string& waiting_for, bool is_live) {
+    Heartbeat heartbeat;
+    heartbeat.process = "tern-mapper";
+    heartbeat.state = state;
+    heartbeat.waiting_for = waiting_for;
+    heartbeat.channels[channels::kSemanticMap.name].sent = 1;
+    if (is_live) heartbeat.channels[channels::kPointCloud.name].received = 1;
+    runner_.observer().publish(channels::kHeartbeat, heartbeat);
   }
   /// Requests made while the vehicle flies on.
   std::size_t requests_in(double seconds) {
@@ -135,6 +146,36 @@ TEST_F(VehicleTrouble, WithoutAStatusAnOffsetMovesNoSetpoint) {
   const double before = farthest_;
   fly(20.0);
   EXPECT_LE(farthest_, before + 1e-9);
+}
+
+TEST_F(VehicleTrouble, WithALiveMapThatIsNotKeptUpToDateNothingIsRequested) {
+  send_mapper(ProcessState::Ready, "", true);
+  fly(1.0);
+  EXPECT_GT(requests_in(1.0), 10u);
+  send_mapper(ProcessState::Waiting, "scans: the last usable one came 2 s ago", true);
+  fly(0.1);
+  EXPECT_EQ(requests_in(1.0), 0u);
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("tern-mapper waits for scans: the last usable one came 2 s ago"));
+  send_mapper(ProcessState::Ready, "", true);
+  EXPECT_GT(requests_in(1.0), 10u) << "it goes on when scans come again";
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+}
+
+TEST_F(VehicleTrouble, ALiveMapWhoseMapperIsSilentIsNotKept) {
+  send_mapper(ProcessState::Ready, "", true);
+  fly(3.1);
+  EXPECT_EQ(requests_in(1.0), 0u);
+  EXPECT_THAT(node_->health().waiting_for, HasSubstr("tern-mapper is silent for 4."));
+  const std::int64_t before = setpoints_;
+  fly(1.0);
+  EXPECT_GT(setpoints_, before + 50) << "the committed trajectory is flown to its end, and rested at";
+}
+
+TEST_F(VehicleTrouble, AMapOfFilesHasNoAge) {
+  send_mapper(ProcessState::Ready, "", false);
+  fly(5.0);
+  EXPECT_GT(requests_in(1.0), 10u);
 }
 
 class OffsetEstimate : public VehicleTrouble, public ::testing::WithParamInterface<double> {};

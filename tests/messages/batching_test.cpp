@@ -10,6 +10,7 @@
 #include "core/wire/message_limits.h"
 #include "tests/messages/messages_under_test.h"
 #include "tests/support/generators.h"
+#include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
 
 namespace tern {
@@ -122,7 +123,9 @@ TEST(Batches, FillTheirMessages) {
   Rng rng(11);
   const auto many = split_batches(random_set(rng, 2500, 1));
   ASSERT_EQ(many.size(), static_cast<std::size_t>(kMaxBatches));
-  for (const TrackSet& batch : many) EXPECT_EQ(batch.tracks.size(), static_cast<std::size_t>(kMaxTracksPerBatch));
+  for (const TrackSet& batch : many) {
+    EXPECT_TRUE(batch.tracks.size() == kMaxTracksPerBatch || encode(batch).size() > kMaxMessageBytes * 99UL / 100);
+  }
   const auto few = split_batches(walkers(100, 552));
   ASSERT_EQ(few.size(), static_cast<std::size_t>(kMaxBatches));
   for (std::size_t k = 0; k + 1 < few.size(); ++k)
@@ -147,7 +150,20 @@ TEST(Batches, HoldAHundredEstimatedTracksAsTheyAre) {
   TrackSet whole = walkers(100, 20);
   for (Track& track : whole.tracks) {
     track.kind = TrackKind::Estimated;
-    track.shares.assign(track.alpha.size(), {0.9F, 0.8F, 0.7F, 0.5F});
+    track.shares.assign(track.alpha.size(), on_all_axes({0.9F, 0.8F, 0.7F, 0.5F}));
+  }
+  const auto batches = split_batches(whole);
+  expect_legal_batches(batches);
+  EXPECT_EQ(words_of(join_batches(batches)), words_of(sorted(whole)));
+}
+
+TEST(Batches, HoldAHundredPredictionsWithSharesOfEachAxisAsTheyAre) {
+  constexpr int kPieces = 18;  // of PredictionSpec
+  TrackSet whole = walkers(100, kPieces);
+  Rng rng(12);
+  for (Track& track : whole.tracks) {
+    track.kind = TrackKind::Estimated;
+    for (int k = 0; k < kPieces; ++k) track.shares.push_back(support::random_shares(rng));
   }
   const auto batches = split_batches(whole);
   expect_legal_batches(batches);

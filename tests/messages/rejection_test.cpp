@@ -184,12 +184,17 @@ TEST(Rejection, OfSharesThatNoDistributionHas) {
       s.tracks[0].shares.assign(s.tracks[0].alpha.size(), shares);
     });
   };
-  EXPECT_EQ(after_shares({1.0F, 1.0F, 1.0F, 1.0F}), "accepted");
-  EXPECT_EQ(after_shares({0.9F, 0.8F, 0.8F, 1e-6F}), "accepted");
-  EXPECT_EQ(after_shares({0.9F, 0.8F, 0.8F, 0.0F}), "Number");
-  EXPECT_EQ(after_shares({1.1F, 0.8F, 0.8F, 0.5F}), "Number");
-  EXPECT_EQ(after_shares({std::numeric_limits<float>::quiet_NaN(), 0.8F, 0.8F, 0.5F}), "Number");
-  EXPECT_EQ(after_shares({0.9F, 0.8F, 0.81F, 0.5F}), "Inconsistent");
+  EXPECT_EQ(after_shares(on_all_axes({1.0F, 1.0F, 1.0F, 1.0F})), "accepted");
+  EXPECT_EQ(after_shares(on_all_axes({0.9F, 0.8F, 0.8F, 1e-6F})), "accepted");
+  EXPECT_EQ(after_shares(on_all_axes({0.9F, 0.8F, 0.8F, 0.0F})), "Number");
+  EXPECT_EQ(after_shares(on_all_axes({1.1F, 0.8F, 0.8F, 0.5F})), "Number");
+  EXPECT_EQ(after_shares(on_all_axes({std::numeric_limits<float>::quiet_NaN(), 0.8F, 0.8F, 0.5F})), "Number");
+  EXPECT_EQ(after_shares(on_all_axes({0.9F, 0.8F, 0.81F, 0.5F})), "Inconsistent");
+  AlphaShares per_axis = on_all_axes({0.9F, 0.8F, 0.7F, 0.6F});
+  per_axis[1] = {0.9F, 0.75F, 0.8F};
+  EXPECT_EQ(after_shares(per_axis), "accepted");
+  per_axis[2][1] = 0.76F;
+  EXPECT_EQ(after_shares(per_axis), "Inconsistent") << "those of y grow";
   using Wire = tern_msgs::track_set_t;
   const auto after_wire = after_on_wire<TrackSet, Wire>;
   EXPECT_EQ(after_wire([](Wire& m) {
@@ -510,7 +515,7 @@ TEST(Encoding, ThrowsOnSharesThatDoNotGoWithTheKindOfTrack) {
   TrackSet set;
   set.tracks.push_back(support::random_track(rng, 0, 3));
   set.tracks[0].kind = TrackKind::Declared;
-  set.tracks[0].shares.assign(3, {1.0F, 1.0F, 1.0F, 1.0F});
+  set.tracks[0].shares.assign(3, on_all_axes({1.0F, 1.0F, 1.0F, 1.0F}));
   EXPECT_THROW(encode(set), std::invalid_argument);
   set.tracks[0].kind = TrackKind::Estimated;
   EXPECT_NO_THROW(encode(set));

@@ -13,7 +13,7 @@ namespace {
 using namespace support;
 
 constexpr UTime kStart{50'000'000};
-constexpr AlphaShares kShares{0.9F, 0.5F, 0.3F, 0.1F};
+const AlphaShares kShares = on_all_axes({0.9F, 0.5F, 0.3F, 0.1F});
 constexpr double kSideStepS = 0.5;
 
 /// An estimated post at rest, with a constant α.
@@ -34,7 +34,7 @@ Track new_thing(std::int64_t id, const Vec3& p, UTime at) {
   track.motion.pieces.assign(kPieces, track.motion.pieces.front());
   track.alpha.clear();
   for (int k = 1; k <= kPieces; ++k) track.alpha.push_back(Vec3::Constant(0.1 + 0.5 * k));
-  track.shares.assign(kPieces, {0.98F, 0.96F, 0.94F, 0.92F});
+  track.shares.assign(kPieces, on_all_axes({0.98F, 0.96F, 0.94F, 0.92F}));
   track.top_speed = 5.0;
   return track;
 }
@@ -178,7 +178,7 @@ TEST_F(InACorridor, WhoFliesBackBeforeWhatIsNewTurnsRoundWhileItIsFar) {
 
 TEST_F(InACorridor, WhoHasRestedOnTheWayForLongTakesWhatHasNoNumber) {
   Track post = believed_post(1, Vec3(1.52, 0, 1), 1.1);
-  post.shares = {{1.0F, 1.0F, 1.0F, 1.0F}};
+  post.shares = {on_all_axes({1.0F, 1.0F, 1.0F, 1.0F})};
   const Plan at_first = answer({post});
   EXPECT_EQ(at_first.alpha_scale, 1.0);
   EXPECT_LT(at_first.trajectory.control_points.row(0).maxCoeff(), 0.1);

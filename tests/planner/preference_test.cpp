@@ -29,7 +29,7 @@ class Choice : public ::testing::Test {
     mover.kind = kind;
     if (kind == TrackKind::Estimated) {
       mover.alpha[0] = Vec3::Constant(0.1);
-      mover.shares.push_back({0.8F, 0.6F, 0.4F, 0.2F});
+      mover.shares.push_back(on_all_axes({0.8F, 0.6F, 0.4F, 0.2F}));
     }
     world_ = world_of({mover}, go_to(Vec3(10, 0, 1)), request_);
     near_.emplace(surroundings(request_, world_, config_, workspace_));

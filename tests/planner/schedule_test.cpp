@@ -23,7 +23,7 @@ class ScheduleTest : public ::testing::Test {
     Track mover = straight_mover(1, request_.start.p + Vec3(1, 0, 0), Vec3(0, 0.1, 0), 0.4, kStart, 8.0);
     mover.kind = kind;
     mover.alpha[0] = Vec3::Constant(alpha);
-    if (kind == TrackKind::Estimated) mover.shares.push_back({0.8F, 0.6F, 0.4F, 0.2F});
+    if (kind == TrackKind::Estimated) mover.shares.push_back(on_all_axes({0.8F, 0.6F, 0.4F, 0.2F}));
     world_ = world_of({mover}, go_to(Vec3(10, 0, 1)), request_);
     near_.emplace(surroundings(request_, world_, config_, workspace_));
     return schedule(task, *near_);

@@ -81,7 +81,7 @@ void count_covered(const std::vector<Track>& tracks, const std::vector<Path>& mo
     ++intervals;
     for (int level = 0; level < kLevels; ++level) {
       Track at_level = track;
-      for (std::size_t k = 0; k < track.alpha.size(); ++k) at_level.alpha[k] *= track.share_at(k, level);
+      for (std::size_t k = 0; k < track.alpha.size(); ++k) at_level.alpha[k] = track.alpha_at(k, level);
       const Path& truth = movers.at(static_cast<std::size_t>(track.id));
       covered.at(static_cast<std::size_t>(level)) += testing::covers(at_level, truth, ahead) ? 1 : 0;
     }

@@ -218,9 +218,7 @@ TEST_F(PredictorNodeTest, ReportsNoBoundsForEstimatesOfAnOwner) {
   runner_.observer().subscribe(channels::kTrackBounds, [&](const TrackBounds& of) { told.push_back(of); });
   Track estimate = mover(1, Vec3(5, 0, 1), Vec3(-1, 0, 0), runner_.now());
   estimate.kind = TrackKind::Estimated;
-  AlphaShares all;
-  all.fill(1.0F);
-  estimate.shares.assign(estimate.alpha.size(), all);
+  estimate.shares.assign(estimate.alpha.size(), on_all_axes({1.0F, 1.0F, 1.0F, 1.0F}));
   declare({estimate});
   run_for(1.0);
   ASSERT_FALSE(told.empty());

@@ -269,7 +269,7 @@ TEST(Tracker, FalseAlarmsHaveSmallBoxesWhereMostNewTracksAreFalse) {
     tracker.update(observations_at(k / kRate, detections));
     for (const Track& track : tracker.predict(tracker.newest())) {
       const bool is_ghost = track.motion.sample(track.motion.start).p.y() > 2.0;
-      if (is_ghost) share = track.share_at(track.alpha.size() / 2, kLevels - 1);
+      if (is_ghost) share = track.shares[track.alpha.size() / 2][kLevels - 2][1];
     }
   }
   // Seven new tracks in ten are false alarms, so α of the last level may be small.

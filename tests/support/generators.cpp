@@ -152,13 +152,18 @@ TrackSet random_message(Rng& rng, Fill fill) {
   set.made_at = time(rng);
   set.confidence = positive(rng, 1.0);
   set.left_out = random_integer(rng, 0, 1000);
-  const int tracks = count(rng, fill, 0, kMaxTracksPerBatch);
-  const int spare = std::max(0, std::min(kMaxPiecesPerBatch - tracks, (kMaxMessageBytes - 200 - tracks * 197) / 144));
+  const bool has_axes = fill != Fill::Largest && rng.uniform() < 0.5;  // shares of each axis, not of all
+  const int tracks = count(rng, fill, 0, has_axes ? 250 : kMaxTracksPerBatch);
+  const int bytes = kMaxMessageBytes - 200 - tracks * (has_axes ? 229 : 197);
+  const int spare = std::max(0, std::min(kMaxPiecesPerBatch - tracks, bytes / (has_axes ? 176 : 144)));
   int left = fill == Fill::Largest ? 0 : random_integer(rng, 0, spare);
   for (const std::int64_t id : different_ids(rng, tracks)) {
     const int more = random_integer(rng, 0, std::min(left, 12));
     left -= more;
-    set.tracks.push_back(random_track(rng, id, 1 + more));
+    Track& track = set.tracks.emplace_back(random_track(rng, id, 1 + more));
+    for (AlphaShares& shares : track.shares) {
+      for (auto& of : shares) of = has_axes ? of : std::array<float, 3>{of[0], of[0], of[0]};
+    }
   }
   return set;
 }

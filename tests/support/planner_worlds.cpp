@@ -32,8 +32,10 @@ Vec3 counted(const Track& track, std::size_t piece, const AlphaShare& count) {
   const bool is_lower = count.level > 0 && !track.shares.empty();
   Vec3 least = Vec3::Constant(1e9);
   for (const std::size_t k : {piece, std::min(piece, count.grows_to)}) {
-    const double share = is_lower ? track.shares[k][static_cast<std::size_t>(count.level) - 1] : 1.0F;
-    least = least.cwiseMin(count.scale * share * track.alpha[k]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = is_lower ? track.shares[k][idx(count.level) - 1][idx(axis)] : 1.0F;
+      least[axis] = std::min(least[axis], count.scale * share * track.alpha[k][axis]);
+    }
   }
   return least;
 }

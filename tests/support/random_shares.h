@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <functional>
 
 #include "core/base/random.h"
@@ -9,11 +11,15 @@
 
 namespace tern::support {
 
-/// Returns sorted shares, uniform in [0.001, 1].
+/// Returns shares that are uniform in [0.001, 1], and sorted on each axis.
 inline AlphaShares random_shares(Rng& rng) {
   AlphaShares shares{};
-  for (float& share : shares) share = static_cast<float>(rng.uniform(1e-3, 1.0));
-  std::sort(shares.begin(), shares.end(), std::greater<>());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<float, shares.size()> of_axis{};
+    for (float& share : of_axis) share = static_cast<float>(rng.uniform(1e-3, 1.0));
+    std::ranges::sort(of_axis, std::greater<>());
+    for (std::size_t k = 0; k < shares.size(); ++k) shares[k][axis] = of_axis[k];
+  }
   return shares;
 }
 

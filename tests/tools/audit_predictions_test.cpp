@@ -63,7 +63,7 @@ struct World {
     track.motion.start = at(s);
     track.motion.pieces.push_back({Duration::from_seconds(2.0), cubic});
     track.alpha.push_back(Vec3::Constant(kAlpha));
-    track.shares.push_back({0.8F, 0.6F, 0.4F, 0.2F});
+    track.shares.push_back(on_all_axes({0.8F, 0.6F, 0.4F, 0.2F}));
     track.top_speed = 5.0;
     return track;
   }
@@ -425,8 +425,10 @@ TEST(ClaimedAlpha, IsWhatThePlannerCounts) {
     track.shares.clear();
     for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
       track.alpha.emplace_back(rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0, 1));
-      const auto share = [&] { return static_cast<float>(rng.uniform(0.1, 1)); };
-      track.shares.push_back({share(), share(), share(), share()});
+      AlphaShares& shares = track.shares.emplace_back();
+      for (auto& of_axes : shares) {
+        for (float& share : of_axes) share = static_cast<float>(rng.uniform(0.1, 1));
+      }
     }
     Plan plan;
     plan.level = static_cast<int>(rng.uniform(0, kLevels));

@@ -97,8 +97,7 @@ UTime follow(const Track& track, const ObstacleHistory& truth, UTime from, UTime
 
 /// Returns α of a piece at a level of confidence, m.
 inline Vec3 alpha_at(const Track& track, std::size_t piece, std::size_t level) {
-  if (level == 0 || track.shares.empty()) return track.alpha[piece];
-  return static_cast<double>(track.shares[piece][level - 1]) * track.alpha[piece];
+  return track.alpha_at(piece, static_cast<int>(level));
 }
 
 }  // namespace tern::audit

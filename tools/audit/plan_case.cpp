@@ -65,8 +65,7 @@ std::vector<Vec3> counted_alpha(const Track& track, const Plan& plan, UTime t_s)
   UTime begin = track.motion.start;
   Vec3 held = Vec3::Zero();
   for (std::size_t k = 0; k < alpha.size(); ++k) {
-    if (plan.level > 0) alpha[k] *= static_cast<double>(track.shares.at(k).at(idx(plan.level) - 1));
-    alpha[k] *= plan.alpha_scale;
+    alpha[k] = plan.alpha_scale * track.alpha_at(k, plan.level);
     if (k == 0 || begin <= sure_to) held = alpha[k];
     alpha[k] = alpha[k].cwiseMin(held);
     begin = begin + track.motion.pieces[k].duration;

@@ -93,7 +93,7 @@ class CoverageCounter {
       std::array<double, kLevels> half;
       for (int level = 0; level < kLevels; ++level) {
         const auto l = idx(level);
-        const Vec3 alpha = track.share_at(piece, level) * track.alpha[piece];
+        const Vec3 alpha = track.alpha_at(piece, level);
         covered[l] = covered[l] && (needed - alpha).maxCoeff() <= kTolerance;
         half[l] = alpha.mean();
       }

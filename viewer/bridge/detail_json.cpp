@@ -46,7 +46,7 @@ void write_pieces(JsonWriter& json, const Track& track) {
     json.key("alpha_m").vec3(track.alpha[k]);
     if (!track.shares.empty()) {
       json.key("alpha_shares").begin_list();
-      for (const float share : track.shares[k]) json.number(static_cast<double>(share));
+      for (const auto& [x, y, z] : track.shares[k]) json.vec3(Vec3(x, y, z));
       json.end_list();
     }
     json.end_object();

@@ -64,8 +64,8 @@ void expect_contains(const Track& now, const Track& before) {
       }
       const Vec3 q = sample_cubic(now.motion.pieces[at.index].coefficients, (start + tau - at.start).seconds()).p;
       for (int level = 0; level < kLevels; ++level) {
-        const Vec3 alpha = now.share_at(at.index, level) * now.alpha[at.index];
-        const Vec3 room = alpha - before.share_at(k, level) * before.alpha[k] - (q - p).cwiseAbs();
+        const Vec3 alpha = now.alpha_at(at.index, level);
+        const Vec3 room = alpha - before.alpha_at(k, level) - (q - p).cwiseAbs();
         ASSERT_GE(room.minCoeff(), 0.0) << "piece " << k << " at " << i << "/20, level " << level;
       }
     }

@@ -1,0 +1,75 @@
+// Tracker's rest on single axes of W. "Rest on an axis" in docs/prediction.md.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "predictor/tracking/tracker.h"
+
+namespace tern {
+namespace {
+
+double distance2(const AxisFilter& of, double z, double r) { return (z - of.x) * (z - of.x) / (of.xx + r); }
+
+}  // namespace
+
+void Tracker::update_rest_of_axes(TrackedObject& object, const Detection& detection, UTime at, UTime seen,
+                                  AxisRestRecords& records) const {
+  const MotionFilter moving = object.moving.lead();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double z = detection.position[axis], r = std::max(detection.variance[axis], kMinVariance);
+    if (r >= kNoPosition) continue;
+    AxisRest& rest = object.rest_of_axes[idx(axis)];
+    RestRecord& record = records[idx(axis)];
+    const bool rested = object.confirmed && seen - rest.since >= config_.resting_after && is_slow(rest.filter);
+    rest.average += kRestingForgetting * (distance2(rest.filter, z, r) - rest.average);
+    const bool is_restarted = object.born == at;
+    if (is_restarted || rest.average > kAxisRestLimit) {
+      rest = {moving.marginal(axis), at, 1.0, rested ? rest.filter : rest.stood};
+    } else {
+      rest.filter.update(z, r);
+      if (rested) {
+        record.rested_s += (at - seen).seconds();
+        rest.stood.reset();
+      }
+    }
+    if (rest.stood && distance2(*rest.stood, z, r) > kJumpGate) {
+      ++record.starts;
+      rest.stood.reset();
+    }
+  }
+}
+
+bool Tracker::is_stationary(const TrackedObject& object, int axis) const {
+  const AxisRest& rest = object.rest_of_axes[idx(axis)];
+  if (!object.confirmed || object.last_seen - rest.since < config_.resting_after) return false;
+  if (!object.is_sighted) return is_slow(rest.filter);
+  const bool is_seen = object.rejected[idx(axis)] == 0 && object.located_at[idx(axis)] == object.last_seen;
+  return is_seen && object.faces.has_position(axis) &&
+         std::abs(rest.filter.v) + 2.0 * std::sqrt(rest.filter.vv) <= kKnownRest;
+}
+
+void Tracker::narrow_resting_axes(const TrackedObject& object, const State& state, UTime from,
+                                  std::vector<Waypoint>& waypoints) const {
+  const bool is_unseen = (from - object.last_seen).seconds() > kUnseenAfter;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_stationary(object, axis)) continue;
+    AxisFilter place = object.rest_of_axes[idx(axis)].filter;
+    const double unnoticed = std::abs(object.position[axis] - place.x);
+    for (std::size_t level = 0; level < rest_quantiles_.size(); ++level) {
+      const std::size_t as = is_unseen ? 0 : level;
+      const double missed = 1.0 - confidence_at(config_.prediction.confidence, static_cast<int>(as));
+      const double trusted_s = trusted_rest_s(state.rest_of_axes[idx(axis)], kStartShare * missed);
+      for (std::size_t k = 0; k < ends_.size(); ++k) {
+        AxisFilter at = place;
+        at.predict((from - state.at + ends_[k]).seconds(), kRestingSigma * kRestingSigma);
+        const double moved_s = std::max(0.0, (from - object.last_seen + ends_[k]).seconds() - trusted_s);
+        double half = rest_quantiles_[as] * std::sqrt(at.xx) + std::abs(waypoints[k].centre[axis] - at.x);
+        if (moved_s > 0.0) half += unnoticed + top_speed() * moved_s;
+        waypoints[k].half[level][axis] = std::min(waypoints[k].half[level][axis], half);
+      }
+    }
+  }
+}
+
+}  // namespace tern
