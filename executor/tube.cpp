@@ -56,7 +56,8 @@ void Tube::forget_since(UTime since) {
 }
 
 void Tube::slow_down(UTime at) {
-  if (!has_error_ || halvings_ == kMaxHalvings || !unchanged_for(kStepPeriod, at)) return;
+  const bool can_shrink = has_error_ || floor_m_ > 0.0;
+  if (!can_shrink || halvings_ == kMaxHalvings || !unchanged_for(kStepPeriod, at)) return;
   if (stepped_up_) patience_ = unchanged_for(patience(), at) ? kPatience : std::min(patience_ * 2, kMaxPatience);
   ++halvings_;
   stepped_up_ = false;
@@ -103,7 +104,7 @@ Vec3 Tube::width(const Vec3& sigma, UTime now) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double unsure = kSigmas * sigma[axis];
     const double resting = rounded_up(kMargin * quantile(resting_, 0.0, axis) + unsure);
-    const double whole = std::max({resting, moving_width(axis, unsure), floor_m_});
+    const double whole = std::max({resting, moving_width(axis, unsure), share() * floor_m_});
     width[axis] = std::min(wider * whole + in_doubt[axis], kMaxTube);
   }
   return width;

@@ -60,8 +60,9 @@ class PersistentError {
 /// | a new plan arrives                  | share() is doubled, if it has not changed during the patience           |
 ///
 /// share() is the part of the vehicle's limits that requests contain. Tracking errors grow with speed and acceleration,
-/// so a slower vehicle fits through a smaller opening. Each halving also halves the width in motion, but not below the
-/// one measured at that share. The patience is kPatience/share(), at most kMaxPatience. It is doubled if share() falls
+/// so a slower vehicle fits through a smaller opening. Each halving also halves the floor, and the width in motion, but
+/// not below the one measured at that share. So a vehicle gets away from a surface that was seen late, and then lay
+/// within the floor. The patience is kPatience/share(), at most kMaxPatience. It is doubled if share() falls
 /// again within the patience after it has risen, and is otherwise reset.
 class Tube {
  public:
@@ -78,7 +79,7 @@ class Tube {
   static constexpr int kMaxHalvings = 5;
   static constexpr Duration kPatience{2'000'000}, kMaxPatience{60'000'000};
 
-  /// @param floor_m  smallest width, [0, kMaxTube]
+  /// @param floor_m  smallest width at share() 1, [0, kMaxTube]
   explicit Tube(double floor_m) : floor_m_(floor_m) {}
 
   /// Adds a tracking error. @param error  |measured − commanded| per axis, m

@@ -20,6 +20,8 @@ constexpr double kShareWithoutProgress = 0.3;
 /// A vehicle that ceased to follow so shortly before the end was not held by that: the verdict itself ends the
 /// following.
 constexpr Duration kShortlyBefore{500'000};
+/// A vehicle farther from its goal, by its own state, is not at it, m.
+constexpr double kAtGoal = 0.2;
 /// The answers before a contact that are told.
 constexpr Duration kBeforeContact{1'000'000};
 
@@ -70,12 +72,7 @@ class Explainer {
     const auto& complaint = evidence_.not_following();
     if (complaint && evidence_.newest() - complaint->since > kShortlyBefore) return not_following(*complaint);
     const auto executor = evidence_.not_ready().find("tern-executor");
-    if (executor != evidence_.not_ready().end()) {
-      return {Cause::StateRefused,
-              fmt::format("{}: its state was not usable from {:.1f} s on: {}; what sends UAV_STATE and VEHICLE_STATUS "
-                          "must send sound ones in time",
-                          held_, seconds(executor->second.since), executor->second.text)};
-    }
+    if (executor != evidence_.not_ready().end()) return not_ready(executor->second);
     if (is_on_its_way()) return time_too_short();
     return by_answers();
   }
@@ -105,7 +102,11 @@ class Explainer {
     for (const auto& [process, complaint] : evidence_.not_ready()) {
       waiting += fmt::format("{}{} ({})", waiting.empty() ? "" : ", ", process, complaint.text);
     }
-    const std::string why = end_.outcome == FlightOutcome::Failed && !end_.detail.empty() ? end_.detail : waiting;
+    std::string why = end_.outcome == FlightOutcome::Failed && !end_.detail.empty() ? end_.detail : waiting;
+    if (waiting.find("newer inputs") != std::string::npos)
+      why += "; a faster sensor (latency_s) or a larger planner.stale_after_s would help";
+    if (waiting.find("obstacle observations") != std::string::npos)
+      why += "; a detector or a sensor of the scenario (simulator.sensor.mode) must send them";
     return {Cause::NeverBegan, "the flight never began: " + (why.empty() ? "no plan was requested" : why)};
   }
 
@@ -132,7 +133,9 @@ class Explainer {
       text += fmt::format(" at {:.1f} m/s on average: about {:.0f} s more would do (timeout_s)", speed,
                           std::ceil(left_m() / speed));
     }
-    if (of(Slow) * 4 > answers_) text += "; " + slow_text();
+    std::size_t slow = 0;
+    for (const AnswerNote& answer : evidence_.answers()) slow += kind_of(answer) == Slow ? 1U : 0U;
+    if (slow * 4 > evidence_.answers().size()) text += "; " + slow_text();
     return {Cause::TimeTooShort, text};
   }
 
@@ -156,6 +159,19 @@ class Explainer {
                         complaint.text)};
   }
 
+  /// tern-executor says why it asks for no plans.
+  [[nodiscard]] Explanation not_ready(const Complaint& executor) const {
+    const std::string text =
+        fmt::format("{}: tern-executor waited from {:.1f} s on: {}", held_, seconds(executor.since), executor.text);
+    if (executor.text.starts_with("the live map")) {
+      return {Cause::StaleWorld, text + "; scans must come again"};
+    }
+    const bool is_of_input =
+        executor.text.starts_with("UAV_STATE is") || executor.text.starts_with("VEHICLE_STATUS is");
+    if (!is_of_input) return {Cause::NotFollowing, text};
+    return {Cause::StateRefused, text + "; what sends UAV_STATE and VEHICLE_STATUS must send sound ones in time"};
+  }
+
   [[nodiscard]] Explanation by_answers() const {
     const auto most = std::max_element(kinds_.begin(), kinds_.begin() + Other,
                                        [](const auto& a, const auto& b) { return a.size() < b.size(); });
@@ -167,6 +183,12 @@ class Explainer {
       case Unplanned: return {Cause::NoPlan, unplanned_text()};
       case Slow: return {Cause::TooSlow, held_ + ": " + slow_text()};
       case Arrived:
+        if (left_m() > kAtGoal) {
+          return {
+              Cause::NotFollowing,
+              fmt::format("{}: its setpoints rest at the goal, and it does not: wind or weak gains keep it off them",
+                          held_)};
+        }
         return {Cause::EstimateOff, fmt::format("rests at its goal by its own estimate, but not by the truth ({}): the "
                                                 "estimate is off; mend the position source",
                                                 end_.detail)};
@@ -224,10 +246,16 @@ class Explainer {
     const double tube = evidence_.last_request() ? evidence_.last_request()->tube.maxCoeff() : 0.0;
     const std::string body = tube > 0.0 ? fmt::format("the body with its tube of {:.1f} m", tube) : "the body";
     std::string text = fmt::format("{}: {} answers *{}*: ", held_, *most, to_string(reason));
+    if (const Covered& there = evidence_.start_covered(); reason == PlanReason::StartInCollision && is_mostly(there)) {
+      return text + fmt::format(
+                        "{}, with its error bound, covers {}; a place farther away or a better prediction would "
+                        "help",
+                        name_of(there), body);
+    }
     if (reason == PlanReason::StartInCollision) {
       return text + fmt::format(
-                        "an obstacle, its prediction or the map covers {}; {}a place farther away, smaller boxes or "
-                        "a better prediction would help",
+                        "the map covers {}, with its unknown voxels if planner.unknown is obstacle; {}a place farther "
+                        "away would help, and fly.sh --check names the voxel",
                         body, tube > 0.0 ? "a smaller executor.tube_m, " : "");
     }
     return text + fmt::format(
@@ -251,7 +279,28 @@ class Explainer {
     return end_.pace ? fmt::format(": --pace {:g}", std::max(0.5 * *end_.pace, 0.01)) : "";
   }
 
+  static bool is_mostly(const Covered& place) { return 2 * place.covered > place.sets; }
+  static std::string name_of(const Covered& place) {
+    return fmt::format("{} obstacle (track {})", place.kind == TrackKind::Estimated ? "a detected" : "a declared",
+                       place.track);
+  }
+
   [[nodiscard]] Explanation no_progress() const {
+    if (const Covered& there = evidence_.goal_covered(); is_mostly(there)) {
+      return {Cause::GoalBlocked, fmt::format("{}: {} was at the goal in {} of {} predictions: move the goal, or wait "
+                                              "until it has gone",
+                                              held_, name_of(there), there.covered, there.sets)};
+    }
+    const auto kept = std::ranges::count_if(kinds_[Other], [](const AnswerNote* answer) {
+      return answer->outcome != PlanOutcome::Optimized && answer->outcome != PlanOutcome::SearchOnly;
+    });
+    if (2 * kept > std::ssize(kinds_[Other])) {
+      return {
+          Cause::NoProgress,
+          fmt::format("{}: {} of {} answers stayed or evaded, because predictions of obstacles cover the way ahead; "
+                      "more room, a sensor that sees farther or better, or a longer timeout_s would help",
+                      held_, kept, answers_)};
+    }
     return {Cause::NoProgress,
             fmt::format("{}, though {} of {} answers gave no reason against flying: the executor refused them, movers "
                         "kept it evading, or the vehicle does not obey; tern-executor.log says which",

@@ -53,7 +53,7 @@ struct Explanation {
 /// 1. There was no request.
 /// 2. A process is silent.
 /// 3. The vehicle did not follow.
-/// 4. Its state was unusable.
+/// 4. tern-executor waits: its state was unusable, a live map is old, or it has given the vehicle up.
 /// 5. The vehicle is on its way: the time was too short.
 /// 6. Most answers gave one reason.
 /// 7. There were plans, but no progress.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/geometry/box.h"
 #include "core/scenario/setting.h"
+#include "core/world/body.h"
 #include "monitor/request_ledger.h"
 
 namespace tern {
@@ -21,6 +23,33 @@ void note(std::map<std::string, Complaint>& complaints, const std::string& name,
 }
 
 }  // namespace
+
+void Covered::note(const Track& there, std::int64_t set) {
+  if (last_set != set) ++covered;
+  last_set = set;
+  track = there.id;
+  kind = there.kind;
+}
+
+void FlightEvidence::receive(const TrackSet& predictions) {
+  predictions_made_ = std::max(predictions_made_, predictions.made_at);
+  if (!last_request_) return;
+  if (predictions.batch.index == 0) ++goal_covered_.sets, ++start_covered_.sets;
+  const Vec3 body = last_request_->body.half_extents();
+  for (const Track& track : predictions.tracks) {
+    const UTime at = std::clamp(predictions.made_at, track.motion.start, track.motion.end());
+    const Vec3 p = track.motion.sample(at).p;
+    const Vec3 whole = track.half_extents + body;
+    if (box_around(p, whole).contains(goal_)) goal_covered_.note(track, predictions.batch.set);
+    const Vec3 wide = whole + last_request_->tube + track.alpha[track.motion.locate(at).index];
+    if (box_around(p, wide).contains(last_request_->start.p)) start_covered_.note(track, predictions.batch.set);
+  }
+}
+
+void FlightEvidence::note_progress(UTime at) {
+  progress_at_ = at;
+  goal_covered_ = start_covered_ = {};
+}
 
 void FlightEvidence::receive(const Heartbeat& heartbeat) {
   const UTime at = heartbeat.header.utime;
@@ -50,7 +79,7 @@ void FlightEvidence::receive(const UavState& state) {
   const double left_m = (goal_ - p).norm();
   if (left_m > closest_m_ - kProgress && begun_) return;
   closest_m_ = std::min(closest_m_, left_m);
-  progress_at_ = state.at;
+  note_progress(state.at);
 }
 
 void FlightEvidence::receive(const VehicleStatus& status) {
@@ -73,7 +102,7 @@ void FlightEvidence::receive(const Goal& goal) {
   if (goal.position == goal_) return;
   goal_ = goal.position;
   closest_m_ = state_ ? (goal_ - state_->motion.p).norm() : (goal_ - start_).norm();
-  progress_at_ = goal.header.utime;
+  note_progress(goal.header.utime);
 }
 
 /// A network may deliver a request again, also after its answer.

@@ -32,6 +32,15 @@ struct Complaint {
   std::string text;
 };
 
+/// How often predictions had an obstacle at a place.
+struct Covered {
+  std::int64_t sets = 0, covered = 0;  ///< all sets, and those with an obstacle there
+  std::int64_t track = 0;              ///< the newest such track
+  TrackKind kind = TrackKind::Static;  ///< of it
+  std::int64_t last_set = 0;           ///< the number of the last set that was counted as covered
+  void note(const Track& there, std::int64_t set);
+};
+
 /// Collects a flight's messages. Times are those in the messages, by the vehicle's clock; nothing depends on when a
 /// message is received.
 class FlightEvidence {
@@ -46,7 +55,7 @@ class FlightEvidence {
   void receive(const HorizonRequest& request);
   void receive(const Plan& plan);
   void receive(const PlanTiming& timing) { answer_ms_.push_back(timing.total_ms); }
-  void receive(const TrackSet& predictions) { predictions_made_ = std::max(predictions_made_, predictions.made_at); }
+  void receive(const TrackSet& predictions);
   void receive(const ObservationSet& observations);
   void receive(const ConfigurationReport& report);
 
@@ -71,6 +80,10 @@ class FlightEvidence {
   /// The process of the flight that was not heard for kProcessSilence at the end, and when it was heard last. Logger,
   /// monitor and viewer do not fly.
   [[nodiscard]] std::optional<std::pair<std::string, UTime>> silent_process() const;
+  /// The body at the goal, in the predictions since the vehicle last came nearer to it; α does not count.
+  [[nodiscard]] const Covered& goal_covered() const { return goal_covered_; }
+  /// The body with its tube at the newest request's start, in the same predictions; α counts.
+  [[nodiscard]] const Covered& start_covered() const { return start_covered_; }
   /// The words of tern-planner's newest HEARTBEAT about a goal that is blocked; may be empty.
   [[nodiscard]] const std::string& blocked_goal() const { return blocked_goal_; }
   /// How late detections were when they came, s; nullopt without any.
@@ -79,6 +92,7 @@ class FlightEvidence {
 
  private:
   void settle(UTime vehicle_time);
+  void note_progress(UTime at);
   struct Open {
     UTime deadline;
     double predictions_age_s = 0.0;
@@ -102,6 +116,7 @@ class FlightEvidence {
   std::map<std::string, Complaint> not_ready_;
   std::map<std::string, UTime> heard_;  ///< last HEARTBEAT by process
   std::string blocked_goal_;
+  Covered goal_covered_, start_covered_;
   std::optional<double> sensor_late_s_;
   double stale_after_s_ = 0.3;
 };

@@ -179,8 +179,7 @@ void ExecutorNode::begin(const UavState& state) {
   executor_.emplace(uav_, state, config_);
   heading_.clear();
   update_tube(state.at);
-  update_mode();
-  use_speed_limit();
+  use_goal();
   if (following_) executor_->begin(bus_.clock().now());
   began_following_ = following_;
   has_flown_ = has_flown_ || following_;
@@ -260,19 +259,14 @@ void ExecutorNode::on_goal(const Goal& goal) {
   goal_ = goal;
   speed_limit_ = next_speed_limit_ && next_speed_limit_->goal_id == goal.id ? next_speed_limit_ : std::nullopt;
   next_goal_ = bus_.clock().now();
-  update_mode();
-  use_speed_limit();
+  use_goal();
 }
 
 void ExecutorNode::on_speed_limit(const SpeedLimit& limit) {
   if (goal_ && limit.goal_id < goal_->id) return;
   const bool is_of_a_goal_to_come = !goal_ || limit.goal_id > goal_->id;
   (is_of_a_goal_to_come ? next_speed_limit_ : speed_limit_) = limit;
-  use_speed_limit();
-}
-
-void ExecutorNode::use_speed_limit() {
-  if (executor_) executor_->set_speed_limit(speed_limit_ ? std::optional(speed_limit_->v_max) : std::nullopt);
+  use_goal();
 }
 
 void ExecutorNode::on_plan(const Plan& plan) {
@@ -303,13 +297,11 @@ void ExecutorNode::on_heading(const PlanHeading& heading) {
             to_string(adoption.verdict), adoption.detail);
 }
 
-void ExecutorNode::update_mode() {
-  const std::string trouble = map_watch_.trouble(bus_.clock().now());
-  if (trouble.empty() != map_trouble_.empty())
-    log::warn("{}", trouble.empty() ? "the live map is kept up to date again: plans are requested"
-                                    : trouble + ": no plans are requested, the trajectory is flown to its end");
-  map_trouble_ = trouble;
-  if (executor_ && goal_) executor_->set_mode(trouble.empty() ? goal_->mode : GoalMode::Stop);
+void ExecutorNode::use_goal() {
+  const bool is_map_kept = map_watch_.judge(bus_.clock().now());
+  if (!executor_) return;
+  if (goal_) executor_->set_mode(is_map_kept ? goal_->mode : GoalMode::Stop);
+  executor_->set_speed_limit(speed_limit_ ? std::optional(speed_limit_->v_max) : std::nullopt);
 }
 
 UTime ExecutorNode::next_wakeup() const {
@@ -322,7 +314,7 @@ UTime ExecutorNode::next_wakeup() const {
 
 void ExecutorNode::step(UTime now) {
   update_following(now);
-  update_mode();
+  use_goal();
   if (executor_ && lost_.empty()) {
     fall_silent_if_held_up(now);
     const auto due = silent_since_ ? std::nullopt : executor_->next_wakeup();
@@ -394,7 +386,7 @@ NodeHealth ExecutorNode::health() const {
   if (!refused_start_.empty()) return {ProcessState::Waiting, refused_start_};
   if (!executor_) return {ProcessState::Waiting, "a vehicle at rest (UAV_STATE)" + refusal_text()};
   if (status_.following && !following_) return {ProcessState::Waiting, reason_not_to_follow(now) + refusal_text()};
-  if (!map_trouble_.empty()) return {ProcessState::Waiting, map_trouble_};
+  if (const std::string why = map_watch_.trouble(now); !why.empty()) return {ProcessState::Waiting, why};
   if (refused_goal_ && now - refused_goal_->second < kGoalRefusedReported) {
     return {ProcessState::Ready,
             fmt::format("refused a goal: its id {} is in use for another one", refused_goal_->first)};

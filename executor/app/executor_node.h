@@ -85,12 +85,11 @@ class ExecutorNode final : public Node {
   void on_status(const VehicleStatus& status);
   void on_goal(const Goal& goal);
   void on_speed_limit(const SpeedLimit& limit);
-  void use_speed_limit();
   void on_plan(const Plan& plan);
   void on_heading(const PlanHeading& heading);
   void on_heartbeat(const Heartbeat& heartbeat);
-  /// The goal's mode applies, or mode Stop while a live map is old (LiveMapWatch).
-  void update_mode();
+  /// Tells the executor mode and speed limit of the newest goal. While a live map is old (LiveMapWatch), it is Stop.
+  void use_goal();
   /// Decides whether the vehicle follows, and acts if that has changed.
   void update_following(UTime now);
   /// Why the vehicle does not follow, in words; empty if it does.
@@ -127,7 +126,6 @@ class ExecutorNode final : public Node {
   std::optional<SpeedLimit> speed_limit_, next_speed_limit_;  ///< of goal_; of a goal to come
   VehicleInputs inputs_;
   LiveMapWatch map_watch_;
-  std::string map_trouble_;  ///< of map_watch_, when it was last asked
   RejoinGuard guard_;
   VehicleStatus status_;          ///< newest; does not follow before the first
   Vec3 measured_ = Vec3::Zero();  ///< position, newest, m, W

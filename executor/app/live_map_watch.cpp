@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "messages/channels.h"
-#include "runtime/node.h"
+#include "runtime/log.h"
 
 namespace tern {
 
@@ -26,6 +26,12 @@ std::string LiveMapWatch::trouble(UTime now) const {
   return waiting_for_.empty() ? "" : "the live map is not kept up to date: tern-mapper waits for " + waiting_for_;
 }
 
-UTime LiveMapWatch::usable_until() const { return received_ ? *received_ + kMaxAge : kNever; }
+bool LiveMapWatch::judge(UTime now) {
+  const std::string why = trouble(now);
+  if (why.empty() && !was_kept_) log::info("plans are requested again: the live map is kept up to date");
+  if (!why.empty() && was_kept_) log::warn("no plans are requested: {}", why);
+  was_kept_ = why.empty();
+  return was_kept_;
+}
 
 }  // namespace tern

@@ -26,12 +26,13 @@ class LiveMapWatch {
   void add(const Heartbeat& heartbeat, UTime received);
   /// Returns why the map is no longer kept up to date, in words; "" if it is.
   [[nodiscard]] std::string trouble(UTime now) const;
-  /// Returns when the age becomes a trouble; kNever if the map is not live.
-  [[nodiscard]] UTime usable_until() const;
+  /// Returns whether there is no trouble, and logs a change.
+  bool judge(UTime now);
 
  private:
   std::optional<UTime> received_;  ///< of the newest HEARTBEAT of a live mapper
   std::string waiting_for_;        ///< "": it was ready
+  bool was_kept_ = true;           ///< result of judge()
 };
 
 }  // namespace tern

@@ -9,7 +9,8 @@ namespace tern {
 
 /// Follows the states that the other processes publish, and joins successive states by cubics. The states are those of
 /// UAV_STATE until a VEHICLE_TRUTH arrives, then those of VEHICLE_TRUTH. Until the first state the vehicle is at rest
-/// at scenario.uav.start. States less than 5 ms apart count as one. It ignores setpoints and publishes no state.
+/// at scenario.uav.start. States less than 5 ms apart count as one. The way of a jump
+/// that no vehicle can fly is left out of the judgement. It ignores setpoints and publishes no state.
 class ExternalVehicle final : public Vehicle {
  public:
   ExternalVehicle(const UavSpec& uav, UTime now);

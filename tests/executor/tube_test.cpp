@@ -108,6 +108,16 @@ TEST(Tube, IsHalvedWithTheLimitsWhereTheStartIsBlockedDownToWhatIsMeasuredAtRest
   EXPECT_EQ(tube.share(), 1.0);
 }
 
+TEST(Tube, HalvesItsFloorWhereTheStartIsBlocked) {
+  Tube tube(0.25);
+  UTime at = kNow;
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), 0.25);
+  blocked(tube, at);
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), 0.125);
+  flown(tube, at = at + Tube::kMaxPatience);
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), 0.25);
+}
+
 TEST(Tube, FliesSlowlyForAsLongAsAnOpeningMayBeAheadAndLongerWhereThatWasTooShort) {
   Tube tube = imperfect();
   UTime at = kNow;

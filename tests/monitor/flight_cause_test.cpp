@@ -33,6 +33,7 @@ class Story {
       state.motion.v = Vec3(speed, 0, 0);
       evidence.receive(state);
       HorizonRequest request = request_;
+      request.start.p = state.motion.p;
       request.header.utime = at(s);
       request.id = ++id_;
       request.deadline = at(s + 0.07);
@@ -71,6 +72,23 @@ class Story {
     evidence.receive(status);
     return *this;
   }
+  /// A set of predictions with track 7 at p.
+  Story& predict(double s, const Vec3& p) {
+    TrackSet set;
+    set.batch.set = ++set_;
+    set.made_at = at(s);
+    Track track;
+    track.id = 7;
+    track.kind = TrackKind::Estimated;
+    track.half_extents = Vec3::Constant(0.3);
+    CubicPiece piece{Duration{1'000'000}, PowerCubic::Zero()};
+    piece.coefficients.col(3) = p;
+    track.motion = {set.made_at, {piece}};
+    track.alpha = {Vec3::Constant(0.1)};
+    set.tracks = {track};
+    evidence.receive(set);
+    return *this;
+  }
   HorizonRequest& request() { return request_; }
 
   [[nodiscard]] Explanation timeout() const {
@@ -86,7 +104,7 @@ class Story {
     request.body.radius = 0.4;
     return request;
   }();
-  std::int64_t id_ = 0;
+  std::int64_t id_ = 0, set_ = 0;
   double x_ = 0.0;
 };
 
@@ -169,12 +187,59 @@ TEST(FlightCause, OfNoPlanNamesTheCommonestReasonAndTheTube) {
 TEST(FlightCause, OfAStartThatTheTubeCoversNamesTheTube) {
   Story story;
   story.fly_with(4, 12, 0.0, PlanReason::StartInCollision);
-  EXPECT_THAT(story.timeout().sentence,
-              AllOf(HasSubstr("160 answers *start in collision*"), HasSubstr("the map covers the body;")));
+  EXPECT_THAT(story.timeout().sentence, AllOf(HasSubstr("160 answers *start in collision*"),
+                                              HasSubstr("the map covers the body, with its unknown voxels")));
   Story tubed;
   tubed.request().tube = Vec3::Constant(0.3);
   tubed.fly_with(4, 12, 0.0, PlanReason::StartInCollision);
-  EXPECT_THAT(tubed.timeout().sentence, HasSubstr("the body with its tube of 0.3 m; a smaller executor.tube_m"));
+  EXPECT_THAT(tubed.timeout().sentence, HasSubstr("a smaller executor.tube_m"));
+}
+
+TEST(FlightCause, OfAStartThatAPredictionCoversNamesTheTrack) {
+  Story story;
+  story.predict(4.0, kStart + Vec3(0.5, 0, 0)).fly_with(4, 8, 0.0, PlanReason::StartInCollision);
+  for (int k = 0; k < 20; ++k) story.predict(8.0 + 0.1 * k, kStart + Vec3(0.5, 0, 0));
+  story.fly_with(8, 12, 0.0, PlanReason::StartInCollision);
+  EXPECT_THAT(story.timeout().sentence,
+              HasSubstr("a detected obstacle (track 7), with its error bound, covers the body"));
+}
+
+TEST(FlightCause, OfAGoalWhereAnObstacleStandsNamesTheTrack) {
+  Story story;
+  const auto keep = [](Plan& plan) { plan.outcome = PlanOutcome::KeepCommitted; };
+  story.fly(0, 4, 0.5).fly(4, 12, 0.0, keep);
+  EXPECT_THAT(story.timeout().sentence, HasSubstr("stayed or evaded, because predictions of obstacles cover the way"));
+  for (int k = 0; k < 20; ++k) story.predict(12.0 + 0.1 * k, kGoal);
+  const Explanation why = story.timeout();
+  EXPECT_EQ(why.cause, Cause::GoalBlocked);
+  EXPECT_THAT(why.sentence, HasSubstr("a detected obstacle (track 7) was at the goal in 20 of 20 predictions"));
+}
+
+TEST(FlightCause, OfAVehicleThatDoesNotHoldItsSetpointsIsNotItsEstimate) {
+  Story story;
+  story.fly(0, 19, 0.5).fly_with(19, 30, 0.0, PlanReason::AtGoal);
+  const Explanation why = story.timeout();
+  EXPECT_EQ(why.cause, Cause::NotFollowing);
+  EXPECT_THAT(why.sentence, HasSubstr("its setpoints rest at the goal, and it does not"));
+}
+
+TEST(FlightCause, OfALiveMapThatIsOldSaysThatScansMustComeAgain) {
+  Story story;
+  story.fly(0, 6, 0.5).fly(6, 12, 0.0);
+  story.beat("tern-executor", 11.9, ProcessState::Waiting,
+             "the live map is not kept up to date: tern-mapper waits for scans: the last usable one came 5 s ago");
+  const Explanation why = story.timeout();
+  EXPECT_EQ(why.cause, Cause::StaleWorld);
+  EXPECT_THAT(why.sentence, HasSubstr("came 5 s ago; scans must come again"));
+}
+
+TEST(FlightCause, OfAnExecutorThatGaveUpDoesNotAskForOtherStates) {
+  Story story;
+  story.fly(0, 6, 0.5).fly(6, 12, 0.0);
+  story.beat("tern-executor", 11.9, ProcessState::Failed, "the vehicle does not follow its setpoints");
+  const Explanation why = story.timeout();
+  EXPECT_EQ(why.cause, Cause::NotFollowing);
+  EXPECT_THAT(why.sentence, Not(HasSubstr("must send sound ones")));
 }
 
 TEST(FlightCause, OfASlowMachineNamesAPaceThatIsHalfAsFast) {

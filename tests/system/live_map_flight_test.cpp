@@ -88,5 +88,36 @@ TEST(LiveMapFlight, TheVehicleFindsItsWayThroughAHallThatOnlyItsLidarKnows) {
   EXPECT_GT(simulator.result()->path_length_m, 26.0) << "through both doors";
 }
 
+TEST(LiveMapFlight, WhileTheLidarIsSilentTheVehicleRests) {
+  const TempFolder folder;
+  std::ofstream(folder.file("hall.yaml")) << kHall;
+  VirtualSystem system(folder.file("hall.yaml"), {"timeout_s=90"});
+  VirtualRunner& runner = system.runner();
+  UavState truth;
+  truth.motion.p = Vec3(0, 0, 1.5);
+  runner.observer().subscribe(channels::kVehicleTruth, [&](const UavState& state) { truth = state; });
+  const SimulatorNode& simulator = system.simulator();
+  const auto fly = [&](int scans, bool is_seeing) {
+    for (int i = 0; i < scans && !simulator.result(); ++i) {
+      for (const CloudScan& part : scan_from(truth.motion.p, runner.now())) {
+        if (is_seeing) runner.observer().publish(channels::kPointCloud, part);
+      }
+      runner.run(runner.now() + Duration{100'000}, [&] { return simulator.result().has_value(); });
+    }
+  };
+  fly(50, true);
+  ASSERT_FALSE(simulator.result());
+  EXPECT_GT(truth.motion.v.norm(), 0.5) << "on its way";
+  fly(80, false);
+  ASSERT_FALSE(simulator.result());
+  EXPECT_LT(truth.motion.v.norm(), 0.01);
+  const Vec3 rested_at = truth.motion.p;
+  fly(20, false);
+  EXPECT_LT((truth.motion.p - rested_at).norm(), 0.01);
+  fly(600, true);
+  ASSERT_TRUE(simulator.result());
+  EXPECT_EQ(simulator.result()->outcome, FlightOutcome::Reached) << simulator.result()->detail;
+}
+
 }  // namespace
 }  // namespace tern

@@ -83,5 +83,24 @@ TEST(ExternalVehicle, StatesOfNearlyOneTimeAreOne) {
   EXPECT_EQ(vehicle.truth().end(), state.at);
 }
 
+TEST(ExternalVehicle, AJumpThatNoVehicleCanFlyTouchesNothingOnItsWay) {
+  Scenario scenario;
+  scenario.uav.start = Vec3(0, 0, 1);
+  ExternalVehicle vehicle(scenario.uav, kZero);
+  UavState state;
+  state.motion.p = Vec3(0, 0, 1);
+  state.motion.v = Vec3(2, 0, 0);
+  state.at = kZero + Duration{10'000};
+  vehicle.receive_estimate(state);
+  state.motion.p = Vec3(4, 0, 1);  // the same clock, another place
+  state.at = kZero + Duration{20'000};
+  vehicle.receive_estimate(state);
+  EXPECT_EQ(vehicle.truth().sample(kZero + Duration{15'000}).p, Vec3(0, 0, 1));
+  state.motion.p = Vec3(4.02, 0, 1);
+  state.at = kZero + Duration{30'000};
+  vehicle.receive_estimate(state);
+  EXPECT_NEAR(vehicle.truth().sample(kZero + Duration{25'000}).p.x(), 4.01, 1e-9);
+}
+
 }  // namespace
 }  // namespace tern
