@@ -31,7 +31,7 @@ struct ExecutorConfig {
       "time from a request to the start of its plan, s; the planner has 5 ms less than this");
     v("tube_m", tube_m, Range{0.0, kMaxTube},
       "smallest tube of a request, m per axis: how far the vehicle may be from its setpoints; a larger measured tube "
-      "replaces it. Where the vehicle stands and no way exists, it is halved, at most five times");
+      "replaces it. Where a vehicle at rest starts in collision, it is halved, at most five times");
     v("start_reach_m", start_reach_m, Range{0.1, 1e5},
       "largest distance of the vehicle from `uav.start` when it first follows, m. At a larger one it is refused, "
       "because a frame or a unit must be wrong");

@@ -33,7 +33,7 @@ Vec3 PersistentError::add(const Vec3& error, UTime received) {
 
 void Tube::on_answer(const Plan& plan, bool rests, UTime at) {
   if (plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted) speed_up(at);
-  if (rests && is_blocked(plan)) slow_down(at);
+  if (rests && is_blocked(plan)) slow_down(plan.reason == PlanReason::StartInCollision, at);
 }
 
 void Tube::add(const Vec3& error, bool rests, UTime at) {
@@ -55,11 +55,12 @@ void Tube::forget_since(UTime since) {
   if (exited_ && *exited_ >= since) exited_.reset();
 }
 
-void Tube::slow_down(UTime at) {
-  const bool can_shrink = has_error_ || floor_m_ > 0.0;
-  if (!can_shrink || halvings_ == kMaxHalvings || !unchanged_for(kStepPeriod, at)) return;
+void Tube::slow_down(bool lies_in_floor, UTime at) {
+  const bool shrinks_floor = lies_in_floor && floor_m_ > 0.0;
+  if (!(has_error_ || shrinks_floor) || halvings_ == kMaxHalvings || !unchanged_for(kStepPeriod, at)) return;
   if (stepped_up_) patience_ = unchanged_for(patience(), at) ? kPatience : std::min(patience_ * 2, kMaxPatience);
   ++halvings_;
+  if (shrinks_floor) ++floor_halvings_;
   stepped_up_ = false;
   stepped_ = at;
 }
@@ -67,6 +68,7 @@ void Tube::slow_down(UTime at) {
 void Tube::speed_up(UTime at) {
   if (halvings_ == 0 || !unchanged_for(patience(), at)) return;
   --halvings_;
+  floor_halvings_ = std::min(floor_halvings_, halvings_);
   stepped_up_ = true;
   stepped_ = at;
 }
@@ -104,7 +106,7 @@ Vec3 Tube::width(const Vec3& sigma, UTime now) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double unsure = kSigmas * sigma[axis];
     const double resting = rounded_up(kMargin * quantile(resting_, 0.0, axis) + unsure);
-    const double whole = std::max({resting, moving_width(axis, unsure), share() * floor_m_});
+    const double whole = std::max({resting, moving_width(axis, unsure), std::ldexp(floor_m_, -floor_halvings_)});
     width[axis] = std::min(wider * whole + in_doubt[axis], kMaxTube);
   }
   return width;

@@ -60,10 +60,11 @@ class PersistentError {
 /// | a new plan arrives                  | share() is doubled, if it has not changed during the patience           |
 ///
 /// share() is the part of the vehicle's limits that requests contain. Tracking errors grow with speed and acceleration,
-/// so a slower vehicle fits through a smaller opening. Each halving also halves the floor, and the width in motion, but
-/// not below the one measured at that share. So a vehicle gets away from a surface that was seen late, and then lay
-/// within the floor. The patience is kPatience/share(), at most kMaxPatience. It is doubled if share() falls
-/// again within the patience after it has risen, and is otherwise reset.
+/// so a slower vehicle fits through a smaller opening. Each halving also halves the width in motion, but not below the
+/// one measured at that share. After a start in collision it halves the floor as well, until share() rises: so a
+/// vehicle gets away from a surface that was seen late. A goal or a way that the floor blocks stays blocked. The
+/// patience is kPatience/share(), at most kMaxPatience. It is doubled if share() falls again within the patience after
+/// it has risen, and is otherwise reset.
 class Tube {
  public:
   static constexpr double kTubeStep = 0.05;         ///< m
@@ -104,7 +105,7 @@ class Tube {
   [[nodiscard]] double share() const;
 
  private:
-  void slow_down(UTime at);
+  void slow_down(bool lies_in_floor, UTime at);
   void speed_up(UTime at);
   struct Second {
     UTime start;
@@ -123,8 +124,8 @@ class Tube {
   /// Sum of all shifts, and its least and largest value per axis so far.
   Vec3 shift_ = Vec3::Zero(), min_shift_ = Vec3::Zero(), max_shift_ = Vec3::Zero();
   std::optional<UTime> exited_, stepped_, forgot_;
-  int halvings_ = 0;
-  bool stepped_up_ = false;  ///< the newest step was one up
+  int halvings_ = 0, floor_halvings_ = 0;  ///< floor_halvings_ ≤ halvings_
+  bool stepped_up_ = false;                ///< the newest step was one up
   Duration patience_ = kPatience;
   bool has_error_ = false;
   std::array<Seconds, kMaxHalvings + 1> moving_;  ///< by halvings

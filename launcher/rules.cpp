@@ -36,7 +36,8 @@ int code_after_audit(int code, int audit_code) {
   constexpr int kPartOnly = 3, kNotJudged = 4;
   if (audit_code == 0) return code;
   if (audit_code == kPartOnly || audit_code == kNotJudged) return code == 0 ? kExitIncomplete : code;
-  if (audit_code != 1) return kExitFailed;
+  // A disk that is too full for the recording is too full for the audit as well.
+  if (audit_code != 1) return code == kExitIncomplete ? code : kExitFailed;
   return code == 1 || code == kExitFailed ? code : kExitBroken;
 }
 

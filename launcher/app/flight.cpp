@@ -293,7 +293,8 @@ int after_flight(const LaunchOptions& options, const fs::path& record, int code)
     say("\n{}", has_failed ? "Audit: " + audit : without_end(read_text(audit)));
   }
   if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) {
-    return ended_by != 0 ? kExitSignalled + ended_by : kExitFailed;
+    if (ended_by != 0) return kExitSignalled + ended_by;
+    return code == kExitIncomplete ? code : kExitFailed;
   }
   return code;
 }

@@ -52,20 +52,26 @@ bool Tracker::is_stationary(const TrackedObject& object, int axis) const {
 void Tracker::narrow_resting_axes(const TrackedObject& object, const State& state, UTime from,
                                   std::vector<Waypoint>& waypoints) const {
   const bool is_unseen = (from - object.last_seen).seconds() > kUnseenAfter;
+  const double speed = top_speed();
   for (int axis = 0; axis < 3; ++axis) {
     if (!is_stationary(object, axis)) continue;
-    AxisFilter place = object.rest_of_axes[idx(axis)].filter;
+    std::array<double, kConfidenceLevels.size()> trusted_s;
+    for (std::size_t level = 0; level < trusted_s.size(); ++level) {
+      const double missed = 1.0 - confidence_at(config_.prediction.confidence, is_unseen ? 0 : static_cast<int>(level));
+      trusted_s[level] = trusted_rest_s(state.rest_of_axes[idx(axis)], kStartShare * missed);
+    }
+    const AxisFilter& place = object.rest_of_axes[idx(axis)].filter;
     const double unnoticed = std::abs(object.position[axis] - place.x);
-    for (std::size_t level = 0; level < rest_quantiles_.size(); ++level) {
-      const std::size_t as = is_unseen ? 0 : level;
-      const double missed = 1.0 - confidence_at(config_.prediction.confidence, static_cast<int>(as));
-      const double trusted_s = trusted_rest_s(state.rest_of_axes[idx(axis)], kStartShare * missed);
-      for (std::size_t k = 0; k < ends_.size(); ++k) {
-        AxisFilter at = place;
-        at.predict((from - state.at + ends_[k]).seconds(), kRestingSigma * kRestingSigma);
-        const double moved_s = std::max(0.0, (from - object.last_seen + ends_[k]).seconds() - trusted_s);
-        double half = rest_quantiles_[as] * std::sqrt(at.xx) + std::abs(waypoints[k].centre[axis] - at.x);
-        if (moved_s > 0.0) half += unnoticed + top_speed() * moved_s;
+    const double drift = object.is_sighted ? std::abs(object.moving.lead().velocity()[axis] - place.v) : 0.0;
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      AxisFilter at = place;
+      at.predict((from - state.at + ends_[k]).seconds(), kRestingSigma * kRestingSigma);
+      const double unseen_s = (from - object.last_seen + ends_[k]).seconds();
+      double apart = std::abs(waypoints[k].centre[axis] - at.x);
+      if (object.is_sighted) apart += unnoticed + drift * std::min(unseen_s, kDriftTime);
+      for (std::size_t level = 0; level < trusted_s.size(); ++level) {
+        double half = rest_quantiles_[is_unseen ? 0 : level] * std::sqrt(at.xx) + apart;
+        if (unseen_s > trusted_s[level]) half += unnoticed + speed * (unseen_s - trusted_s[level]);
         waypoints[k].half[level][axis] = std::min(waypoints[k].half[level][axis], half);
       }
     }

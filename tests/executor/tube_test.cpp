@@ -108,11 +108,18 @@ TEST(Tube, IsHalvedWithTheLimitsWhereTheStartIsBlockedDownToWhatIsMeasuredAtRest
   EXPECT_EQ(tube.share(), 1.0);
 }
 
-TEST(Tube, HalvesItsFloorWhereTheStartIsBlocked) {
+TEST(Tube, HalvesItsFloorWhereTheStartIsInCollisionAlone) {
   Tube tube(0.25);
   UTime at = kNow;
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), 0.25);
-  blocked(tube, at);
+  Plan goal_blocked;
+  goal_blocked.outcome = PlanOutcome::NoPlan;
+  goal_blocked.reason = PlanReason::GoalBlocked;
+  tube.on_answer(goal_blocked, true, at);
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), 0.25) << "the margin that was asked for";
+  Plan start_in_collision = goal_blocked;
+  start_in_collision.reason = PlanReason::StartInCollision;
+  tube.on_answer(start_in_collision, true, at);
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), 0.125);
   flown(tube, at = at + Tube::kMaxPatience);
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), 0.25);

@@ -55,7 +55,10 @@ TEST(FlightExitCode, OfABrokenAuditGivesWayToACollision) {
   EXPECT_EQ(code_after_audit(1, 1), 1);
   EXPECT_EQ(code_after_audit(kExitFailed, 1), kExitFailed);
   EXPECT_EQ(code_after_audit(2, 1), kExitBroken);
-  for (const int no_audit : {2, 70, 139}) EXPECT_EQ(code_after_audit(0, no_audit), kExitFailed);
+  for (const int no_audit : {2, 70, 139}) {
+    EXPECT_EQ(code_after_audit(0, no_audit), kExitFailed);
+    EXPECT_EQ(code_after_audit(kExitIncomplete, no_audit), kExitIncomplete);
+  }
 }
 
 TEST(FlightExitCode, OfAFlightThatTheAuditCouldNotJudgeAsAWholeIsNeverZero) {
