@@ -61,10 +61,11 @@ class PersistentError {
 ///
 /// share() is the part of the vehicle's limits that requests contain. Tracking errors grow with speed and acceleration,
 /// so a slower vehicle fits through a smaller opening. Each halving also halves the width in motion, but not below the
-/// one measured at that share. After a start in collision it halves the floor as well, until share() rises: so a
-/// vehicle gets away from a surface that was seen late. A goal or a way that the floor blocks stays blocked. The
-/// patience is kPatience/share(), at most kMaxPatience. It is doubled if share() falls again within the patience after
-/// it has risen, and is otherwise reset.
+/// one measured at that share. After a start in collision it halves the floor as well, until share() rises. So a
+/// vehicle gets away from a surface that was seen late. A goal or a way that the floor blocks stays blocked.
+///
+/// The patience is kPatience/share(), at most kMaxPatience. It is doubled if share() falls again within the patience
+/// after it has risen, and is otherwise reset.
 class Tube {
  public:
   static constexpr double kTubeStep = 0.05;         ///< m
