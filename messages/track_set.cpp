@@ -62,7 +62,6 @@ std::size_t estimated_pieces(const tern_msgs::track_set_t& m) {
   return pieces;
 }
 
-
 }  // namespace
 
 template <>

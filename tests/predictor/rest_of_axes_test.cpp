@@ -88,8 +88,8 @@ TEST(RestOfAxes, LosesItsTrustWithAStart) {
   EXPECT_GT(alpha_after(tracker, 1.5, kLevels - 1)[kX], 1.0);
 }
 
-/// The hardest kind: one axis rests for one to three seconds, and starts at full speed. At level 0 the models miss 2 % of
-/// such corners, with and without rest on axes.
+/// The hardest kind: one axis rests for one to three seconds, and starts at full speed. At level 0 the models miss 2 %
+/// of such corners, with and without rest on axes.
 TEST(RestOfAxes, CoversThoseThatTurnCornersAsStated) {
   Rng rng(3);
   std::vector<Patrol> patrols;
