@@ -81,6 +81,8 @@ void Tube::add_shift(const Vec3& by) {
 
 double Tube::share() const { return std::ldexp(1.0, -halvings_); }
 
+double Tube::floor_m() const { return std::ldexp(floor_m_, -floor_halvings_); }
+
 double Tube::quantile(const Seconds& seconds, double prior, int axis) {
   std::vector<double> errors;
   for (const Second& second : seconds) errors.push_back(second.largest[axis]);
@@ -106,7 +108,7 @@ Vec3 Tube::width(const Vec3& sigma, UTime now) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double unsure = kSigmas * sigma[axis];
     const double resting = rounded_up(kMargin * quantile(resting_, 0.0, axis) + unsure);
-    const double whole = std::max({resting, moving_width(axis, unsure), std::ldexp(floor_m_, -floor_halvings_)});
+    const double whole = std::max({resting, moving_width(axis, unsure), floor_m()});
     width[axis] = std::min(wider * whole + in_doubt[axis], kMaxTube);
   }
   return width;

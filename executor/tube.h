@@ -104,6 +104,8 @@ class Tube {
   [[nodiscard]] Vec3 width(const Vec3& sigma, UTime now) const;
   /// The share of the vehicle's limits that requests contain, (0, 1].
   [[nodiscard]] double share() const;
+  /// The smallest width now, m.
+  [[nodiscard]] double floor_m() const;
 
  private:
   void slow_down(bool lies_in_floor, UTime at);

@@ -254,8 +254,8 @@ class Explainer {
     }
     if (reason == PlanReason::StartInCollision) {
       return text + fmt::format(
-                        "the map covers {}, with its unknown voxels if planner.unknown is obstacle; {}a place farther "
-                        "away would help, and fly.sh --check names the voxel",
+                        "the map, or an obstacle that came and went, covers {}; with planner.unknown: obstacle "
+                        "unknown voxels do so as well; {}a place farther away would help",
                         body, tube > 0.0 ? "a smaller executor.tube_m, " : "");
     }
     return text + fmt::format(
@@ -297,8 +297,8 @@ class Explainer {
     if (2 * kept > std::ssize(kinds_[Other])) {
       return {
           Cause::NoProgress,
-          fmt::format("{}: {} of {} answers stayed or evaded, because predictions of obstacles cover the way ahead; "
-                      "more room, a sensor that sees farther or better, or a longer timeout_s would help",
+          fmt::format("{}: {} of {} answers stayed or evaded, as no plan made more progress at its confidence; among "
+                      "movers more room, a better sensor or a longer timeout_s would help",
                       held_, kept, answers_)};
     }
     return {Cause::NoProgress,

@@ -16,11 +16,11 @@ enum class Cause : std::uint8_t {
   Failure,        ///< a process could not run, or a limit was broken: the flight's end says it
   Contact,        ///< it touched an obstacle or the map
   ProcessSilent,  ///< the HEARTBEAT of a process ceased
-  NotFollowing,   ///< a pilot took over, or the autopilot did not fly the setpoints
+  NotFollowing,   ///< a pilot took over, or the vehicle did not fly the setpoints
   EstimateLost,   ///< the estimator has no position
   StateRefused,   ///< UAV_STATE or VEHICLE_STATUS were refused or too old
   StaleWorld,     ///< predictions were missing or too old
-  GoalBlocked,    ///< the map, static obstacles or the flight box leave no way
+  GoalBlocked,    ///< map, static obstacles or flight box leave no way, or an obstacle is at the goal
   NoPlan,         ///< no certified trajectory was found
   TooSlow,        ///< answers came too late, or their time was too short
   EstimateOff,    ///< it rests at its goal by its own estimate only

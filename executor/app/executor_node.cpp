@@ -143,7 +143,10 @@ void ExecutorNode::on_estimate_shift(const std::optional<Vec3>& by) {
   if (const auto refusal = guard_.check_reset(*by, bus_.received())) lose(*refusal);
 }
 
-void ExecutorNode::update_tube(UTime now) { executor_->set_tube(tube_.width(sigma_, now), tube_.share()); }
+void ExecutorNode::update_tube(UTime now) {
+  executor_->set_tube(tube_.width(sigma_, now), tube_.share());
+  log_smallest_tube(tube_.floor_m(), std::exchange(logged_floor_m_, tube_.floor_m()));
+}
 
 /// While the vehicle does not follow, somebody else may fly it anywhere.
 void ExecutorNode::rejoin(const UavState& state, bool counts) {

@@ -136,6 +136,7 @@ class ExecutorNode final : public Node {
   std::optional<std::pair<std::int64_t, UTime>> refused_goal_;              ///< id, and when
   std::optional<UTime> silent_since_;  ///< set in state Silent: a UAV_STATE of this time or later ends it
   Tube tube_;
+  double logged_floor_m_ = tube_.floor_m();
   EstimateResets resets_;
   std::optional<UTime> left_at_;  ///< when VEHICLE_STATUS last reported that the vehicle no longer follows
   Vec3 sigma_ = Vec3::Zero();     ///< standard deviation of the estimate, m

@@ -23,4 +23,8 @@ void log_counters(const ExecutorCounters& counters, const HeadingCounters& headi
   }
 }
 
+void log_smallest_tube(double now_m, double before_m) {
+  if (now_m != before_m) log::warn("the smallest tube is {:g} m now (was {:g})", now_m, before_m);
+}
+
 }  // namespace tern

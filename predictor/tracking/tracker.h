@@ -156,6 +156,8 @@ enum class UpdateOutcome {
 /// | any        | consistent with rest for `resting_after`                         | stationary      |
 /// | stationary | the resting hypothesis fails                                     | filters restart |
 ///
+/// Each axis of W of a track that moves has a resting hypothesis of its own (tracker_axes.cpp).
+///
 /// A pure function of the observations. Sets that come out of order within kReorderWindow give the same tracks as in
 /// order of (time, sensor). A set costs its matching (matching.h) and some microseconds per track. Not thread-safe.
 class Tracker {

@@ -187,8 +187,9 @@ TEST(FlightCause, OfNoPlanNamesTheCommonestReasonAndTheTube) {
 TEST(FlightCause, OfAStartThatTheTubeCoversNamesTheTube) {
   Story story;
   story.fly_with(4, 12, 0.0, PlanReason::StartInCollision);
-  EXPECT_THAT(story.timeout().sentence, AllOf(HasSubstr("160 answers *start in collision*"),
-                                              HasSubstr("the map covers the body, with its unknown voxels")));
+  EXPECT_THAT(story.timeout().sentence,
+              AllOf(HasSubstr("160 answers *start in collision*"),
+                    HasSubstr("came and went, covers the body; with planner.unknown: obstacle")));
   Story tubed;
   tubed.request().tube = Vec3::Constant(0.3);
   tubed.fly_with(4, 12, 0.0, PlanReason::StartInCollision);
@@ -208,7 +209,8 @@ TEST(FlightCause, OfAGoalWhereAnObstacleStandsNamesTheTrack) {
   Story story;
   const auto keep = [](Plan& plan) { plan.outcome = PlanOutcome::KeepCommitted; };
   story.fly(0, 4, 0.5).fly(4, 12, 0.0, keep);
-  EXPECT_THAT(story.timeout().sentence, HasSubstr("stayed or evaded, because predictions of obstacles cover the way"));
+  EXPECT_THAT(story.timeout().sentence,
+              HasSubstr("160 of 160 answers stayed or evaded, as no plan made more progress"));
   for (int k = 0; k < 20; ++k) story.predict(12.0 + 0.1 * k, kGoal);
   const Explanation why = story.timeout();
   EXPECT_EQ(why.cause, Cause::GoalBlocked);
