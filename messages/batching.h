@@ -17,7 +17,8 @@ namespace tern {
 ///
 /// 1. Each track in the first half of the order is resampled to at most 2s pieces, each other track to at most s
 ///    pieces. The error goes into α (core/world/resampling.h). s is the largest number for which all tracks fit.
-/// 2. 1920 tracks fit with one piece each, or 1560 with shares of each axis. Further ones are left out, the last ones first.
+/// 2. 1920 tracks fit with one piece each, or 1560 with shares of each axis. Further ones are left out, the last ones
+/// first.
 /// 3. A track is also left out if resampling takes its numbers out of a message's ranges (α beyond 1e6 m, pieces of
 ///    weeks).
 ///
