@@ -109,7 +109,7 @@ class Run {
       if (lines.records.size() == 2) {
         auto record = read_flight(lines.records[0]);
         auto times = read_times(lines.records[1]);
-        if (record && times) return {std::move(*record), std::move(*times)};
+        if (record && times) return {std::move(*record), std::move(*times), {}};
       }
       trouble = "the flight's process gave no result";
     }

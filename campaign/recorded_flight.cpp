@@ -48,6 +48,12 @@ void record_text(const std::string& path, const std::string& text) {
   if (!write_text(path, text)) throw CannotRecord(path + ": cannot be written");
 }
 
+LogWriter open_recording(const std::string& path) {
+  auto writer = LogWriter::open(path, 0);
+  if (!writer) throw CannotRecord(writer.error().message);
+  return std::move(*writer);
+}
+
 /// Passes every message to the watch, the times and the observer.
 void subscribe(Bus& bus, FlightWatch& watch, FlightTimes& times, FlightObserver* observer) {
   subscribe_flight(bus, watch);
@@ -139,15 +145,15 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
                             const std::string& folder, const Auditor& auditor, FlightObserver* observer) {
   const std::string log = folder + "/flight.lcm";
   if (std::filesystem::exists(log)) throw CannotRecord(log + ": exists already; choose another folder");
-  record_text(folder + "/scenario.yaml", spell_out(inputs, seed));
-  auto writer = LogWriter::open(log, 0);
-  if (!writer) throw CannotRecord(writer.error().message);
   RecordedFlight flight;
   flight.times.seed = seed;
   flight.times.machine = machine_name();
   flight.times.compiler = compiler_name();
+  std::optional<LogWriter> writer;
   {
     VirtualSystem system(inputs.scenario_file, inputs.with_seed(seed), inputs.charge);
+    record_text(folder + "/scenario.yaml", spell_out(inputs, seed));
+    writer.emplace(open_recording(log));  // after the inputs were accepted: a refused flight leaves no log
     VirtualRunner& runner = system.runner();
     FlightWatch watch(system.timed_scenario(), runner.now());
     runner.observer().listen([&](std::string_view channel, std::int64_t, std::span<const std::uint8_t> bytes) {
@@ -159,6 +165,7 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
     summary.version = identity.version;
     const auto estimate = watch.estimate();
     record_text(folder + "/summary.json", estimate ? with_estimate(to_json(summary), *estimate) : to_json(summary));
+    flight.said = summary.said;
     flight.record = make_record(summary, system.executor().counters(), inputs, identity);
   }
   if (const auto flushed = writer->flush(); !flushed) throw CannotRecord(flushed.error().message);

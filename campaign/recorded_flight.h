@@ -1,6 +1,7 @@
 // One flight of a campaign, with the summary of tern-monitor and the log of tern-logger.
 #pragma once
 
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -36,6 +37,7 @@ struct FlightObserver {
 struct RecordedFlight {
   FlightRecord record;
   FlightTimes times;
+  std::map<std::string, std::string> said;  ///< FlightSummary::said
 };
 
 /// Flies one seed and writes three files to `folder`, which must exist and hold no flight.lcm:

@@ -40,7 +40,7 @@ struct VirtualSystem::Parts {
   PredictorConfig predictor;
   EstimatorNodeConfig estimator;  ///< read if the vehicle flies on an estimate
   MapperConfig mapper;
-  VoxelMap map;
+  LoadedMap map;
   PlannerConfig planner;
   mission::MissionConfig mission;
   std::string goals_from;
@@ -52,7 +52,7 @@ struct VirtualSystem::Parts {
         executor(document.root().section("executor").read<ExecutorConfig>()),
         predictor(read_predictor_config(document.root().section("predictor"))),
         mapper(read_mapper_config(document)),
-        map(load_map(scenario, mapper, std::getenv("TERN_DATA")).map),
+        map(load_map(scenario, mapper, std::getenv("TERN_DATA"))),
         planner(read_planner_config(document.root().section("planner"), scenario.semantics)),
         mission(mission::read_mission_config(document.root().section("mission"))) {}
 };
@@ -95,7 +95,8 @@ void VirtualSystem::start(const std::string& process) {
     if (process == "tern-executor") return std::make_unique<ExecutorNode>(bus, parts_->scenario.uav, parts_->executor);
     if (process == "tern-predictor") return std::make_unique<PredictorNode>(bus, parts_->predictor);
     if (process == "tern-mapper") {
-      return std::make_unique<MapperNode>(bus, parts_->map, live_setup(parts_->scenario, parts_->mapper));
+      return std::make_unique<MapperNode>(bus, parts_->map.map, live_setup(parts_->scenario, parts_->mapper),
+                                          warnings_of(parts_->map.remarks));
     }
     if (process == "tern-estimator") {
       return std::make_unique<EstimatorNode>(bus, parts_->estimator, parts_->scenario.uav.start);

@@ -38,14 +38,18 @@ void pass(std::optional<int> fd, const char* option, ChildProcess& child) {
 
 }  // namespace
 
-std::vector<std::string> autopilot_limits(const Limits& limits) {
+std::vector<std::string> autopilot_limits(const Limits& limits, bool has_defaults) {
   constexpr double kLevel = 12.0, kDown = 1.5;  // MPC_XY_VEL_MAX, MPC_Z_VEL_MAX_DN
-  if (limits.dynamics) return {};
+  if (limits.dynamics && !has_defaults) return {};
+  std::vector<std::string> values;
+  if (!limits.dynamics) {
+    values.emplace_back("uav.dynamics={thrust_min: 4, thrust_max: 16, tilt_max: 38, body_rate_max: 170}");
+  }
   Vec3 v = limits.v_max;
   v.head<2>() *= std::min(1.0, kLevel / v.head<2>().norm());
   v.z() = std::min(v.z(), kDown);
-  return {"uav.dynamics={thrust_min: 4, thrust_max: 16, tilt_max: 38, body_rate_max: 170}",
-          fmt::format("uav.limits.v_max=[{}, {}, {}]", v.x(), v.y(), v.z())};
+  if (v != limits.v_max) values.push_back(fmt::format("uav.limits.v_max=[{}, {}, {}]", v.x(), v.y(), v.z()));
+  return values;
 }
 
 std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, const std::string& record,

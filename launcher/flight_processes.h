@@ -46,9 +46,9 @@ struct SupervisedProcess {
 };
 
 /// Returns overrides that fit an autopilot with PX4's default bounds and thrust/weight 2, with a reserve for feedback.
-/// The bounds are 45°, 220°/s, 12 m/s level and 1.5 m/s down. Empty if the limits state `dynamics`: they are a
-/// vehicle's own.
-std::vector<std::string> autopilot_limits(const Limits& limits);
+/// The bounds are 45°, 220°/s, 12 m/s level and 1.5 m/s down. Limits with `dynamics` are a vehicle's own. They are
+/// kept, but for the speed if the autopilot certainly has the default bounds, as a simulated one.
+std::vector<std::string> autopilot_limits(const Limits& limits, bool has_defaults);
 inline constexpr char kMavlink[] = "tern-mavlink", kAutopilotSim[] = "tern-autopilot-sim";
 inline constexpr char kDetector[] = "tern-detector", kEstimator[] = "tern-estimator";
 inline constexpr char kMission[] = "tern-mission";

@@ -14,6 +14,7 @@
 namespace tern {
 namespace {
 
+constexpr const char* kSimulator = "tern-simulator";
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Without progress for this share of the flight, the time was not too short.
 constexpr double kShareWithoutProgress = 0.3;
@@ -64,7 +65,8 @@ class Explainer {
     if (end_.detail.starts_with(kReachedAsBelieved)) {
       return {Cause::EstimateOff, end_.detail + "; texture in view of the goal, or a POSITION_FIX, would help"};
     }
-    if (const auto silent = evidence_.silent_process()) {
+    // The sender of the verdict lives; a slow machine may have delayed its HEARTBEAT.
+    if (const auto silent = evidence_.silent_process(); silent && !(end_.result && silent->first == kSimulator)) {
       return {Cause::ProcessSilent,
               fmt::format("{}: {} was silent from {:.1f} s on, so it died or was cut off; {}.log says why", held_,
                           silent->first, seconds(silent->second), silent->first)};
@@ -73,6 +75,11 @@ class Explainer {
     if (complaint && evidence_.newest() - complaint->since > kShortlyBefore) return not_following(*complaint);
     const auto executor = evidence_.not_ready().find("tern-executor");
     if (executor != evidence_.not_ready().end()) return not_ready(executor->second);
+    if (const auto since = evidence_.frozen_since()) {
+      return {Cause::StateRefused, fmt::format("{}: UAV_STATE has had one position and velocity since {:.1f} s, though "
+                                               "the vehicle was to move; mend what sends it",
+                                               held_, seconds(*since))};
+    }
     if (is_on_its_way()) return time_too_short();
     return by_answers();
   }
@@ -107,7 +114,8 @@ class Explainer {
       why += "; a faster sensor (latency_s) or a larger planner.stale_after_s would help";
     if (waiting.find("obstacle observations") != std::string::npos)
       why += "; a detector or a sensor of the scenario (simulator.sensor.mode) must send them";
-    return {Cause::NeverBegan, "the flight never began: " + (why.empty() ? "no plan was requested" : why)};
+    return {Cause::NeverBegan,
+            "the flight never began: " + (why.empty() ? "no plan was requested" : why) + overload_text()};
   }
 
  private:
@@ -202,7 +210,11 @@ class Explainer {
                          return a->predictions_age_s < b->predictions_age_s;
                        }))->predictions_age_s;
     const double limit = evidence_.stale_after_s();
-    if (std::isinf(age)) return text + ": no PREDICTIONS came; does tern-predictor run, and does it get detections?";
+    if (std::isinf(age)) {
+      const std::string overload = overload_text();
+      return text + ": no PREDICTIONS came" +
+             (overload.empty() ? "; does tern-predictor run, and does it get detections?" : overload);
+    }
     if (age <= limit) return text + ": map or goal were missing; tern-planner's HEARTBEAT says which";
     text += fmt::format(", predictions up to {:.2f} s old", age);
     const auto late = evidence_.sensor_late_s();
@@ -212,8 +224,20 @@ class Explainer {
                         "planner.stale_after_s would help",
                         *late, limit);
     }
+    if (const std::string overload = overload_text(); !overload.empty()) {
+      return text + fmt::format(", limit {:g}", limit) + overload;
+    }
     return text + fmt::format(", limit {:g}: detections or tern-predictor ceased, or the machine was too slow{}", limit,
                               slower_pace());
+  }
+
+  /// The words of overloaded processes since the vehicle was held; "" if there are none.
+  [[nodiscard]] std::string overload_text() const {
+    std::string text;
+    for (const auto& [process, complaint] : evidence_.overloaded()) {
+      if (complaint.heard >= from_) text += fmt::format("; {}: {}", process, complaint.text);
+    }
+    return text;
   }
 
   /// The request tells body, tube and box of the last answers; the planner's own words tell of obstacles.

@@ -61,6 +61,9 @@ void FlightEvidence::receive(const Heartbeat& heartbeat) {
   } else {
     note(not_ready_, heartbeat.process, at, heartbeat.waiting_for.empty() ? "starting" : heartbeat.waiting_for);
   }
+  if (heartbeat.waiting_for.find("overloaded") != std::string::npos) {
+    note(overloaded_, heartbeat.process, at, heartbeat.waiting_for);
+  }
   const bool is_blocked = heartbeat.waiting_for.find(" is blocked: ") != std::string::npos;
   if (heartbeat.process == "tern-planner") blocked_goal_ = is_blocked ? heartbeat.waiting_for : "";
 }
@@ -68,6 +71,7 @@ void FlightEvidence::receive(const Heartbeat& heartbeat) {
 void FlightEvidence::receive(const UavState& state) {
   newest_ = std::max(newest_, state.header.utime);
   if (state_ && state.at <= state_->at) return;
+  if (!state_ || state.motion.p != state_->motion.p || state.motion.v != state_->motion.v) same_since_ = state.at;
   state_ = state;
   settle(state.header.utime);
   const Vec3& p = state.motion.p;
@@ -89,9 +93,9 @@ void FlightEvidence::receive(const VehicleStatus& status) {
   if (status.following || !has_followed_) {
     not_following_.reset();
   } else if (not_following_) {
-    not_following_->heard = status.at;
+    not_following_->heard = status.header.utime;
   } else {
-    not_following_ = {status.at, status.at, status.why_not};
+    not_following_ = {status.header.utime, status.header.utime, status.why_not};
   }
 }
 
@@ -150,6 +154,14 @@ std::optional<UTime> FlightEvidence::stood_since() const {
   if (slow_since_ && state_->at - *slow_since_ >= kStandTime) return slow_since_;
   if (anchor_ && state_->at - anchor_->at >= kHoverTime) return anchor_->at;
   return std::nullopt;
+}
+
+std::optional<UTime> FlightEvidence::frozen_since() const {
+  if (!state_ || state_->at - same_since_ < kStandTime) return std::nullopt;
+  const MotionSample& stated = state_->motion;
+  const bool moves = stated.v.norm() > kStandSpeed;
+  const bool is_left = last_request_ && (last_request_->start.p - stated.p).norm() > kStandRadius;
+  return moves || is_left ? std::optional(same_since_) : std::nullopt;
 }
 
 std::optional<std::pair<std::string, UTime>> FlightEvidence::silent_process() const {

@@ -77,6 +77,11 @@ class FlightEvidence {
   [[nodiscard]] const std::optional<Complaint>& not_following() const { return not_following_; }
   /// The processes that are not ready, by name.
   [[nodiscard]] const std::map<std::string, Complaint>& not_ready() const { return not_ready_; }
+  /// The processes that said that they are overloaded, by name.
+  [[nodiscard]] const std::map<std::string, Complaint>& overloaded() const { return overloaded_; }
+  /// Since when UAV_STATE has had one position and velocity, though by them the vehicle moves, or plans begin
+  /// kStandRadius away from it. nullopt: it changes, or the vehicle may rest there.
+  [[nodiscard]] std::optional<UTime> frozen_since() const;
   /// The process of the flight that was not heard for kProcessSilence at the end, and when it was heard last. Logger,
   /// monitor and viewer do not fly.
   [[nodiscard]] std::optional<std::pair<std::string, UTime>> silent_process() const;
@@ -109,11 +114,12 @@ class FlightEvidence {
   std::vector<double> answer_ms_;
   std::optional<UavState> anchor_;   ///< the vehicle has been within kStandRadius of it since
   std::optional<UTime> slow_since_;  ///< first time below kStandSpeed since then
+  UTime same_since_;                 ///< state_ has had the same position and velocity since
   double closest_m_;
   bool is_held_ = false;  ///< told to hold, as an autopilot is until the flight begins
   bool has_followed_ = false;
   std::optional<Complaint> not_following_;
-  std::map<std::string, Complaint> not_ready_;
+  std::map<std::string, Complaint> not_ready_, overloaded_;
   std::map<std::string, UTime> heard_;  ///< last HEARTBEAT by process
   std::string blocked_goal_;
   Covered goal_covered_, start_covered_;

@@ -53,12 +53,13 @@ struct FlightSummary {
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
   std::int64_t restarts = 0;
-  std::map<std::string, int> concurrent;  ///< for a process that ran several times at once: the largest number at a
-                                          ///< time
-  std::string log;                        ///< path of the recording; empty: none
-  std::string command;                    ///< command line of the user; empty: not known
-  double pace = 1.0;                      ///< seconds of flight per second of the system's clock, which replan_ms has
-  std::string version;                    ///< build id
+  std::map<std::string, std::string> said;  ///< ProcessTable::words at the end
+  std::map<std::string, int> concurrent;    ///< for a process that ran several times at once: the largest number at a
+                                            ///< time
+  std::string log;                          ///< path of the recording; empty: none
+  std::string command;                      ///< command line of the user; empty: not known
+  double pace = 1.0;                        ///< seconds of flight per second of the system's clock, which replan_ms has
+  std::string version;                      ///< build id
 };
 
 /// One JSON object, two spaces of indent. Values that are missing (NaN, a measure without a referee) are null. Its

@@ -182,6 +182,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.pace = pace_.value_or(1.0);
   summary.messages = processes_.messages();
   summary.restarts = processes_.restarts();
+  summary.said = processes_.words();
   summary.concurrent = processes_.concurrent();
   return summary;
 }

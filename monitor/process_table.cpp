@@ -23,6 +23,7 @@ void ProcessTable::add(const Heartbeat& heartbeat, UTime now) {
   Start& start = found->second;
   if (is_new) start.first_heartbeat = now;
   start.newest = heartbeat;
+  if (heartbeat.state == ProcessState::Ready) start.words = heartbeat.waiting_for;
   start.last_heartbeat = now;
   ++start.beats;
   const auto active = process.starts.find(process.active_epoch_us);
@@ -111,6 +112,18 @@ std::map<std::string, MessageCount> ProcessTable::messages() const {
     }
   }
   return messages;
+}
+
+std::map<std::string, std::string> ProcessTable::words() const {
+  std::map<std::string, std::string> words;
+  for (const auto& [name, process] : processes_) {
+    const auto active = process.starts.find(process.active_epoch_us);
+    if (active == process.starts.end()) continue;
+    const Start& start = active->second;
+    const bool is_ready = start.newest.state == ProcessState::Ready || start.newest.state == ProcessState::Finished;
+    if (is_ready && !start.words.empty()) words[name] = start.words;
+  }
+  return words;
 }
 
 std::string ProcessTable::waiting() const {

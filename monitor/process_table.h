@@ -47,10 +47,14 @@ class ProcessTable {
   /// The processes that are not ready, with reasons: "tern-planner: a map; tern-mapper: starting". Empty if all are
   /// ready.
   [[nodiscard]] std::string waiting() const;
+  /// The words of the processes that are ready or have finished, by name: warnings. Processes without words are left
+  /// out.
+  [[nodiscard]] std::map<std::string, std::string> words() const;
 
  private:
   struct Start {
     Heartbeat newest;
+    std::string words;  ///< of the newest one in state Ready
     UTime first_heartbeat, last_heartbeat;
     std::int64_t beats = 0;
   };

@@ -118,6 +118,7 @@ std::string to_json(const FlightSummary& summary) {
       {"exposure", exposure_by_region(result)},
       {"messages", messages_by_channel(summary)},
       {"restarts", summary.restarts},
+      {"said", Json(summary.said)},
       {"beside", Json(summary.concurrent)},
       {"log", summary.log.empty() ? Json(nullptr) : Json(summary.log)},
       {"command", summary.command.empty() ? Json(nullptr) : Json(summary.command)},

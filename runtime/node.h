@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/time.h"
 #include "core/wire/health.h"
@@ -33,6 +34,9 @@ class Node {
   /// Called for each signal that asks the process to end. @return whether it ends now; if not, the node goes on until
   /// finished() has a code
   [[nodiscard]] virtual bool end(UTime /*now*/) { return true; }
+  /// Facts that no scenario states, such as drawn values: lines without line breaks of their own. CONFIGURATION carries
+  /// them below the YAML, as comments. Asked once, when the node starts.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
   /// The exit code, once the node has finished its work.
   [[nodiscard]] virtual std::optional<int> finished() const { return std::nullopt; }
 };

@@ -20,12 +20,27 @@ constexpr Duration kHeartbeatPeriod{500'000};
 constexpr Duration kConfigurationPeriod{5'000'000};
 /// Space for the last line of a shortened text.
 constexpr std::size_t kCutLineBytes = 120;
+constexpr std::size_t kMaxNote = 200;  ///< bytes
 
 /// Appends `trouble` if it fits.
 void append(std::string& waiting_for, const std::string& trouble) {
   const std::string separator = waiting_for.empty() ? "" : "; ";
   if (trouble.empty() || waiting_for.size() + separator.size() + trouble.size() > kMaxWaitingText) return;
   waiting_for += separator + trouble;
+}
+
+/// Appends the notes as comments, as many as fit; a last line says if some do not.
+std::string with_notes(std::string yaml, const std::vector<std::string>& notes) {
+  for (std::size_t k = 0; k < notes.size(); ++k) {
+    std::string line = "# " + plain_text(notes[k], kMaxNote);
+    std::ranges::replace(line, '\n', ' ');
+    if (yaml.size() + line.size() + 1 + kCutLineBytes > kMaxYamlText) {
+      const std::string cut = fmt::format("# cut here: {} of {} notes\n", k, notes.size());
+      return yaml.size() + cut.size() <= kMaxYamlText ? yaml + cut : yaml;
+    }
+    yaml += line + '\n';
+  }
+  return yaml;
 }
 
 Duration magnitude(Duration d) { return d < Duration{} ? d * -1 : d; }
@@ -43,7 +58,10 @@ std::string reported_yaml(const std::string& effective_yaml) {
 std::uint64_t configuration_hash(const std::string& effective_yaml) { return digest(reported_yaml(effective_yaml)); }
 
 NodeHost::NodeHost(Bus& bus, Node& node, std::string process, const std::string& effective_yaml)
-    : bus_(bus), node_(node), process_(std::move(process)), yaml_(reported_yaml(effective_yaml)) {
+    : bus_(bus),
+      node_(node),
+      process_(std::move(process)),
+      yaml_(with_notes(reported_yaml(effective_yaml), node.notes())) {
   last_heartbeat_ = next_heartbeat_ = next_configuration_ = bus.clock().now();
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& m) { on_heartbeat(m); });
 }

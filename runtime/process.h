@@ -81,7 +81,7 @@ inline constexpr Duration kHeartbeatSpacing{50'000};
 /// reports that it is waiting, CONFIGURATION is repeated with each of its heartbeats.
 class NodeHost {
  public:
-  /// @param effective_yaml  published on CONFIGURATION, through reported_yaml
+  /// @param effective_yaml  published on CONFIGURATION, through reported_yaml, with the node's notes below
   NodeHost(Bus& bus, Node& node, std::string process, const std::string& effective_yaml);
   /// The earliest of the node's wakeup, the next report and the next paced message.
   [[nodiscard]] UTime next_wakeup() const;

@@ -32,6 +32,7 @@ int fly_one(const Options& options) try {
   const Auditor auditor{judges ? options.flight.audit : options.flight.coverage, judges};
   const RecordedFlight flight =
       fly_recorded(inputs, options.seed, identity, options.folder, auditor, options.trace ? &tracer : nullptr);
+  for (const auto& [process, words] : flight.said) log::warn("{}: {}", process, words);
   fmt::print("{}", encode_flight(flight.record, flight.times));
   return std::fflush(stdout) == 0 ? 0 : kExitCannotWrite;
 } catch (const CannotRecord& error) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
@@ -10,6 +12,8 @@
 
 namespace tern {
 namespace {
+
+constexpr std::string_view kNote = "# obstacle ";
 
 /// Returns the text of a YAML scalar: without its quotes, if it has any.
 std::string plain(std::string_view value) {
@@ -26,9 +30,8 @@ std::string plain(std::string_view value) {
   return text;
 }
 
-}  // namespace
-
-std::map<std::int64_t, std::string> obstacle_names(const std::string& yaml) {
+/// Returns the names that the scenario lists.
+std::map<std::int64_t, std::string> listed_names(const std::string& yaml) {
   std::map<std::int64_t, std::string> names;
   std::int64_t first = 0, listed = 0;  // id of the first listed obstacle, number of them so far
   bool is_blind_corner = false;
@@ -54,6 +57,26 @@ std::map<std::int64_t, std::string> obstacle_names(const std::string& yaml) {
   }
   return names;
 }
+
+}  // namespace
+
+std::map<std::int64_t, std::string> obstacle_names(const std::string& yaml) {
+  std::map<std::int64_t, std::string> names = listed_names(yaml);
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string_view text(line);
+    if (!text.starts_with(kNote)) continue;
+    const std::size_t colon = text.find(": ", kNote.size());
+    std::int64_t id = 0;
+    const char* const end = text.data() + std::min(colon, text.size());
+    const auto read = std::from_chars(text.data() + kNote.size(), end, id);
+    if (read.ec != std::errc{} || read.ptr != end || colon == std::string_view::npos) continue;
+    names[id] = text.substr(colon + 2);
+  }
+  return names;
+}
+
+std::string name_note(std::int64_t id, const std::string& name) { return fmt::format("obstacle {}: {}", id, name); }
 
 std::string with_name(std::int64_t id, const std::map<std::int64_t, std::string>& names) {
   const auto found = names.find(id);

@@ -123,6 +123,7 @@ void announce(const LaunchOptions& options, const fs::path& record, const std::v
   }
   if (options.pace != 1.0) say("  pace     {} s of flight per second", options.pace);
   if (options.view_fd) say("  view     {}", options.view_url);
+  for (const std::string& value : options.autopilot_limits) say("  limits   {}, within the autopilot's bounds", value);
   if (options.key) say("  key      messages are signed");
 }
 
@@ -196,7 +197,10 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
   if (options.pace != 1.0 && !options.autopilot.empty() && !options.autopilot_sim) {
     throw std::runtime_error("--pace: a real autopilot's clock cannot be slowed; use --pace 1");
   }
-  if (!options.autopilot.empty()) options.autopilot_limits = autopilot_limits(scenario.uav.limits);
+  if (!options.autopilot.empty()) {
+    const bool has_defaults = options.autopilot_sim && !document.root().section("autopilot_sim").flag("tuned", false);
+    options.autopilot_limits = autopilot_limits(scenario.uav.limits, has_defaults);
+  }
   const std::vector<std::string> sections = document.root().keys();
   options.detects = std::ranges::find(sections, "detector") != sections.end();
   options.estimates = document.root().section("simulator").text("estimation", "perfect") == "vio";

@@ -7,6 +7,7 @@
 
 #include "core/wire/message_limits.h"
 #include "core/world/names.h"
+#include "runtime/log.h"
 #include "semantic_mapper/sources/class_names.h"
 
 namespace tern {
@@ -116,6 +117,20 @@ std::string reason_for_nothing(const CloudFile& cloud, const Census& census, con
 }
 
 }  // namespace
+
+std::string warnings_of(const std::vector<MapRemark>& remarks) {
+  std::string text;
+  for (const MapRemark& remark : remarks) {
+    if (remark.is_warning) text += (text.empty() ? "" : "; ") + remark.text;
+  }
+  return text;
+}
+
+void log_remarks(const std::vector<MapRemark>& remarks) {
+  for (const MapRemark& remark : remarks) {
+    log::write(remark.is_warning ? log::Level::Warning : log::Level::Info, "{}", remark.text);
+  }
+}
 
 std::vector<MapRemark> report_cloud(const CloudSource& source, const CloudFile& cloud, const ClassMeanings& classes,
                                     const MapperConfig& config, const Box& flight_box) {

@@ -16,6 +16,12 @@ struct MapRemark {
   bool is_warning = false;
 };
 
+/// Logs the remarks, warnings as such.
+void log_remarks(const std::vector<MapRemark>& remarks);
+
+/// Returns the warnings in one text, by "; ".
+std::string warnings_of(const std::vector<MapRemark>& remarks);
+
 /// Returns one line on the points that are used, and a warning for each fact that may make the map wrong:
 ///
 /// * float32 coordinates that are too large for the resolution;

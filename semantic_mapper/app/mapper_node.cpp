@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include "core/wire/message_limits.h"
 #include "core/world/map_progress.h"
@@ -47,11 +48,15 @@ std::array<std::int64_t, kVoxelLabels> count_labels(const VoxelMap& map) {
 
 }  // namespace
 
-MapperNode::MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSetup>& live)
-    : bus_(bus), rotation_began_(bus.clock().now()), next_(rotation_began_), earliest_(rotation_began_) {
+MapperNode::MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSetup>& live, std::string warnings)
+    : bus_(bus),
+      warnings_(std::move(warnings)),
+      rotation_began_(bus.clock().now()),
+      next_(rotation_began_),
+      earliest_(rotation_began_) {
   if (live) live_ = std::make_unique<LiveUpdates>(bus, map, *live);
   publish(map);
-  if (!text_.empty()) log::info("{}", text_);
+  if (!rotation_text_.empty()) log::info("{}", rotation_text_);
 }
 
 MapperNode::~MapperNode() = default;
@@ -63,7 +68,7 @@ void MapperNode::publish(const VoxelMap& map) {
         fmt::format("the map takes {} chunks (limit {}): give smaller extents or a coarser resolution", chunks_.size(),
                     kMaxMapChunks));
   }
-  text_ = rotation_text(chunks_);
+  rotation_text_ = rotation_text(chunks_);
   at_ = 0;
   next_ = earliest_;
 }
@@ -95,23 +100,25 @@ void MapperNode::step(UTime now) {
 NodeHealth MapperNode::health() const {
   const std::string waiting_for = live_ ? live_->waiting_for() : "";
   if (!waiting_for.empty()) return {ProcessState::Waiting, waiting_for};
-  const std::string trouble = live_ ? live_->trouble() : "";
-  return {ProcessState::Ready, trouble.empty() ? text_ : trouble};
+  std::string words = live_ ? live_->trouble() : "";
+  for (const std::string& more : {rotation_text_, warnings_}) {
+    if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
+  }
+  return {ProcessState::Ready, words};
 }
 
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
   const MapperConfig config = read_mapper_config(context.document);
   const LoadedMap loaded = load_map(context.scenario, config, std::getenv("TERN_DATA"));
-  for (const MapRemark& remark : loaded.remarks) {
-    log::write(remark.is_warning ? log::Level::Warning : log::Level::Info, "{}", remark.text);
-  }
+  log_remarks(loaded.remarks);
   const VoxelMap& map = loaded.map;
   const auto count = count_labels(map);
   log::info("map {:016x}: {} × {} × {} voxels of {} m: {} occupied, {} attractive, {} repulsive, {} unknown",
             map.version, map.grid.size.x(), map.grid.size.y(), map.grid.size.z(), map.grid.resolution, count[2],
             count[3], count[4], count[0]);
   try {
-    return std::make_unique<MapperNode>(context.bus, map, live_setup(context.scenario, config));
+    return std::make_unique<MapperNode>(context.bus, map, live_setup(context.scenario, config),
+                                        warnings_of(loaded.remarks));
   } catch (const std::invalid_argument& e) {
     throw ConfigError(fmt::format("{}: mapper: {}", context.scenario.file, e.what()));
   }

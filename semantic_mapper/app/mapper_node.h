@@ -26,15 +26,16 @@ class LiveUpdates;
 
 /// Publishes the chunks of a map in rotation. Chunks are at least kPacing apart, and their rate is at most
 /// kMapBytesPerSecond. A small map is therefore complete once a second; a large one is repeated without pause.
-/// HEARTBEAT says how long a rotation takes if it takes longer than kMapSilence.
+/// HEARTBEAT says how long a rotation takes if it takes longer than kMapSilence, and repeats warnings on the map.
 ///
 /// A live map changes by scans and OctoMaps (LiveMap). A changed map is published at once as a new version, once per
 /// period at most. Each version is sent whole before the next one begins, so every receiver completes it.
 class MapperNode final : public Node {
  public:
-  /// @param live  nullopt: the map does not change
+  /// @param live      nullopt: the map does not change
+  /// @param warnings  faults that may make the map wrong, for HEARTBEAT; may be empty
   /// @throws std::invalid_argument if the map needs more than kMaxMapChunks chunks, or is too large for a live map
-  MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSetup>& live = {});
+  MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSetup>& live = {}, std::string warnings = "");
   ~MapperNode() override;
 
   [[nodiscard]] UTime next_wakeup() const override;
@@ -46,8 +47,8 @@ class MapperNode final : public Node {
 
   Bus& bus_;
   std::vector<MapChunk> chunks_;
-  std::string text_;    // for HEARTBEAT
-  std::size_t at_ = 0;  // index of the next chunk
+  std::string rotation_text_, warnings_;  // for HEARTBEAT
+  std::size_t at_ = 0;                    // index of the next chunk
   UTime rotation_began_;
   UTime next_;
   UTime earliest_;  // when the rate allows the next chunk

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scenario/obstacle_names.h"
 #include "core/world/box_cover.h"
 #include "core/world/names.h"
 #include "core/world/stated_bound.h"
@@ -94,6 +95,14 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
     if (is_own && catching_up_since_ && status.at >= *catching_up_since_) catching_up_since_.reset();
   });
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
+}
+
+std::vector<std::string> SimulatorNode::notes() const {
+  std::vector<std::string> notes;
+  for (const WorldObstacle& obstacle : referee_.world().obstacles) {
+    if (const std::string& name = obstacle.spec().name; !name.empty()) notes.push_back(name_note(obstacle.id(), name));
+  }
+  return notes;
 }
 
 UTime SimulatorNode::next_wakeup() const {
@@ -315,7 +324,9 @@ NodeHealth SimulatorNode::health() const {
   if (!world_zero_) return {ProcessState::Waiting, missing(bus_.clock().now())};
   if (!goal_) return {ProcessState::Waiting, "a goal"};
   if (const std::string skewed = gate_.skewed(); !skewed.empty()) return {ProcessState::Waiting, skewed};
-  return {ProcessState::Ready, broadcast_.trouble()};
+  std::string words = broadcast_.trouble();
+  for (const std::string& remark : referee_.world().remarks) words += (words.empty() ? "" : "; ") + remark;
+  return {ProcessState::Ready, words};
 }
 
 std::optional<int> SimulatorNode::finished() const {

@@ -67,6 +67,8 @@ class SimulatorNode final : public Node {
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
   [[nodiscard]] std::optional<int> finished() const override;
+  /// The obstacles' names: "obstacle 12: people#7".
+  [[nodiscard]] std::vector<std::string> notes() const override;
 
   [[nodiscard]] const Vehicle& vehicle() const { return *vehicle_; }
   [[nodiscard]] const std::optional<FlightResult>& result() const { return result_; }

@@ -60,7 +60,7 @@ std::string StartGate::missing(UTime now) const {
     } else if (found->second.state == ProcessState::Failed && !found->second.waiting_for.empty()) {
       append(text, name, found->second.waiting_for);
     } else if (found->second.state != ProcessState::Ready) {
-      append(text, name, found->second.waiting_for.empty() ? "not ready" : "waits for " + found->second.waiting_for);
+      append(text, name, found->second.waiting_for.empty() ? "not ready" : "waits: " + found->second.waiting_for);
     } else if (!found->second.skew.reading()) {
       append(text, name, "has not echoed a HEARTBEAT: its clock cannot be compared");
     }

@@ -41,7 +41,7 @@ class StartGate {
   /// Takes a heartbeat. @param received  receive time, listener's clock
   void receive(const Heartbeat& heartbeat, UTime received);
   [[nodiscard]] bool open(UTime now) const { return missing(now).empty(); }
-  /// The processes that are not ready, with reasons: "tern-planner (waits for a map), tern-mapper (no HEARTBEAT)".
+  /// The processes that are not ready, with reasons: "tern-planner (waits: a map), tern-mapper (no HEARTBEAT)".
   /// Empty when all are ready.
   [[nodiscard]] std::string missing(UTime now) const;
   /// True if tern-logger is ready to record, or if it is not required.

@@ -123,6 +123,27 @@ TEST(RecordedFlight, AnAuditKeepsTheNamesOfObstacles) {
   EXPECT_EQ(record.name_of(4), "obstacle 4");
 }
 
+TEST(RecordedFlight, AnAuditKnowsTheNamesOfRecordedObstacles) {
+  const TempFolder folder;
+  const std::string people = folder.file("people.txt");
+  std::ofstream(people) << "0 142 8 8\n100 142 9 9\n0 7 8 -8\n100 7 9 -9\n";
+  fly(short_hop(Charge::Counts,
+                {"timeout_s=0.5", "world.count=0", "world.obstacles=[]",
+                 "world.recorded=[{file: " + people +
+                     ", columns: 4, frame_column: 0, id_column: 1, x_column: 2, y_column: 3, "
+                     "frames_per_second: 10, start_s: 0, half_extents: [0.3, 0.3, 0.9], centre_z: 0.9}]"}),
+      1, folder);
+  const auto record = audit::load_flight(folder.file("flight.lcm"));
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->obstacle_names, (std::map<std::int64_t, std::string>{{0, "people#7"}, {1, "people#142"}}));
+}
+
+TEST(RecordedFlight, OfARefusedMapLeavesNothingThatRefusesTheNextOne) {
+  const TempFolder folder;
+  EXPECT_THROW(fly(short_hop(Charge::Counts, {"mapper.sources=[{file: missing.ply}]"}), 1, folder), ConfigError);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("flight.lcm")));
+}
+
 TEST(RecordedFlight, AChargedPlanArrivesWhenItsCpuTimeIsOver) {
   const TempFolder folder;
   struct Watch final : FlightObserver {

@@ -46,7 +46,7 @@ TEST(StartGate, OpensWhenEveryoneIsReadyAndSaysWhoIsNot) {
   EXPECT_EQ(gate.missing(kNow), "tern-planner (no HEARTBEAT), tern-mapper (no HEARTBEAT)");
   gate.receive(heartbeat("tern-mapper", ProcessState::Ready), kNow);
   gate.receive(heartbeat("tern-planner", ProcessState::Waiting, "a map"), kNow);
-  EXPECT_EQ(gate.missing(kNow), "tern-planner (waits for a map)");
+  EXPECT_EQ(gate.missing(kNow), "tern-planner (waits: a map)");
   gate.receive(heartbeat("tern-planner", ProcessState::Starting), kNow);
   EXPECT_EQ(gate.missing(kNow), "tern-planner (not ready)");
   gate.receive(heartbeat("tern-planner", ProcessState::Failed, "the disk is full"), kNow);
@@ -61,7 +61,7 @@ TEST(StartGate, KnowsWhetherTheLogHoldsWhatIsPublished) {
   EXPECT_FALSE(gate.records(kNow));
   gate.receive(heartbeat(kRecorder, ProcessState::Waiting, "CONFIGURATION of tern-planner"), kNow);
   EXPECT_FALSE(gate.records(kNow));
-  EXPECT_EQ(gate.missing(kNow), "tern-planner (no HEARTBEAT), tern-logger (waits for CONFIGURATION of tern-planner)");
+  EXPECT_EQ(gate.missing(kNow), "tern-planner (no HEARTBEAT), tern-logger (waits: CONFIGURATION of tern-planner)");
   gate.receive(heartbeat(kRecorder, ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.records(kNow));
   EXPECT_FALSE(gate.records(kNow + StartGate::kHeartbeatAge + kMs));

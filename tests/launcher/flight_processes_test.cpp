@@ -66,13 +66,22 @@ TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
 TEST(FlightProcesses, KeepAnAutopilotWithinPx4sDefaultBoundsUnlessTheScenarioStatesItsVehicle) {
   Limits limits;
   limits.v_max = Vec3(6, 6, 6);
-  EXPECT_EQ(autopilot_limits(limits),
+  EXPECT_EQ(autopilot_limits(limits, false),
             (Words{"uav.dynamics={thrust_min: 4, thrust_max: 16, tilt_max: 38, body_rate_max: 170}",
                    "uav.limits.v_max=[6, 6, 1.5]"}));
   limits.v_max = Vec3(30, 40, 1);
-  EXPECT_EQ(autopilot_limits(limits)[1], "uav.limits.v_max=[7.199999999999999, 9.6, 1]");
+  EXPECT_EQ(autopilot_limits(limits, false)[1], "uav.limits.v_max=[7.199999999999999, 9.6, 1]");
   limits.dynamics.emplace();
-  EXPECT_EQ(autopilot_limits(limits), Words());
+  EXPECT_EQ(autopilot_limits(limits, false), Words());
+}
+
+TEST(FlightProcesses, KeepTheSpeedOfAStatedVehicleWithinTheBoundsOfASimulatedAutopilot) {
+  Limits limits;
+  limits.dynamics.emplace();
+  limits.v_max = Vec3(2, 2, 2);
+  EXPECT_EQ(autopilot_limits(limits, true), Words{"uav.limits.v_max=[2, 2, 1.5]"});
+  limits.v_max = Vec3(2, 2, 1);
+  EXPECT_EQ(autopilot_limits(limits, true), Words());
 }
 
 TEST(FlightProcesses, AreAllRestartedButTheMonitor) {

@@ -152,6 +152,34 @@ TEST(FlightCause, OfMissingPredictionsAsksForThePredictor) {
   EXPECT_THAT(story.timeout().sentence, HasSubstr("no PREDICTIONS came"));
 }
 
+TEST(FlightCause, OfMissingPredictionsRepeatsThatTheirSenderIsOverloaded) {
+  const std::string words = "sensor 1: overloaded, sets are skipped for newer ones";
+  Story story;
+  story.fly(0, 2, 0.0).fly_with(2, 12, 0.0, PlanReason::StaleWorld);
+  story.beat("tern-predictor", 11.5, ProcessState::Ready, words);
+  EXPECT_THAT(story.timeout().sentence, HasSubstr("no PREDICTIONS came; tern-predictor: " + words));
+  Story waiting;
+  waiting.beat("tern-planner", 3, ProcessState::Waiting, "predictions");
+  waiting.beat("tern-predictor", 4, ProcessState::Ready, words);
+  EXPECT_THAT(explain(waiting.evidence, {FlightOutcome::Failed, ""}).sentence,
+              HasSubstr("tern-planner (predictions); tern-predictor: " + words));
+}
+
+TEST(FlightCause, OfAStateThatDoesNotChangeBlamesItsSenderAndNotTheTube) {
+  Story story;
+  story.fly(0, 4, 0.5);
+  const UavState last = *story.evidence.state();
+  story.request().tube = Vec3::Constant(2.0);
+  for (double s = 4; s < 12; s += 0.05) {
+    UavState same = last;
+    same.header.utime = same.at = at(s);
+    story.evidence.receive(same);
+  }
+  const Explanation why = story.timeout();
+  EXPECT_EQ(why.cause, Cause::StateRefused);
+  EXPECT_THAT(why.sentence, HasSubstr("UAV_STATE has had one position and velocity since 3.9 s"));
+}
+
 TEST(FlightCause, OfAGoalOutsideTheBoxLessTheTubeSaysSo) {
   Story story;
   story.request().flight_box = Box(Vec3(-20, -20, -20), Vec3(11, 20, 20));
@@ -287,6 +315,15 @@ TEST(FlightCause, OfADeadProcessNamesItAndWhenItWasHeardLast) {
   const Explanation why = story.timeout();
   EXPECT_EQ(why.cause, Cause::ProcessSilent);
   EXPECT_THAT(why.sentence, HasSubstr("tern-planner was silent from 3.5 s on"));
+}
+
+TEST(FlightCause, TheSenderOfTheVerdictWasNotSilent) {
+  Story story;
+  story.beat("tern-simulator", 1.0).fly(0, 12, 0.5);
+  FlightEnd end{FlightOutcome::Timeout, "", {}, 1.0};
+  EXPECT_EQ(explain(story.evidence, end).cause, Cause::ProcessSilent);
+  end.result.emplace();
+  EXPECT_EQ(explain(story.evidence, end).cause, Cause::TimeTooShort);
 }
 
 TEST(FlightCause, OfAPilotWhoTookOverIsToldAsTheBridgeSaysIt) {

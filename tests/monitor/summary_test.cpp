@@ -47,13 +47,14 @@ FlightSummary flown() {
 
 TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   const json summary = json::parse(to_json(flown()));
-  EXPECT_THAT(keys(summary), testing::UnorderedElementsAre(
-                                 "outcome", "detail", "cause", "why", "recording", "scenario", "seed", "count",
-                                 "settings", "flight_time_s", "first_entry_s", "path_length_m", "mean_speed_mps",
-                                 "top_speed_mps", "stops", "min_clearance_m", "min_map_clearance_m", "limit_violations",
-                                 "contacts_moving", "contacts_at_rest", "obstacles", "obstacles_left_out", "requests",
-                                 "answered_in_time", "second_answers", "plans", "confidence", "left_out", "replan_ms",
-                                 "exposure", "messages", "restarts", "beside", "log", "command", "pace", "version"));
+  EXPECT_THAT(
+      keys(summary),
+      testing::UnorderedElementsAre(
+          "outcome", "detail", "cause", "why", "recording", "scenario", "seed", "count", "settings", "flight_time_s",
+          "first_entry_s", "path_length_m", "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m",
+          "min_map_clearance_m", "limit_violations", "contacts_moving", "contacts_at_rest", "obstacles",
+          "obstacles_left_out", "requests", "answered_in_time", "second_answers", "plans", "confidence", "left_out",
+          "replan_ms", "exposure", "messages", "restarts", "said", "beside", "log", "command", "pace", "version"));
   EXPECT_THAT(keys(summary["settings"]),
               testing::UnorderedElementsAre("lambda_attractive", "lambda_repulsive", "v_max", "a_max", "j_max"));
   EXPECT_THAT(keys(summary["replan_ms"]),
@@ -99,6 +100,13 @@ TEST(Summary, SaysThatWallsComeFromAMap) {
   EXPECT_THAT(to_text(s), testing::HasSubstr("0 obstacles and a map's walls\n"));
   s.result->min_map_clearance_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(to_text(s), testing::HasSubstr("0 obstacles\n"));
+}
+
+TEST(Summary, RepeatsWhatReadyProcessesSay) {
+  FlightSummary s = flown();
+  s.said["tern-mapper"] = "a.ply: coordinates are rounded";
+  EXPECT_THAT(to_text(s), testing::HasSubstr("  said          tern-mapper: a.ply: coordinates are rounded\n"));
+  EXPECT_EQ(json::parse(to_json(s))["said"]["tern-mapper"], "a.ply: coordinates are rounded");
 }
 
 TEST(Summary, KeepsTheRangeOfASeed) {

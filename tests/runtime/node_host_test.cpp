@@ -50,6 +50,43 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
   EXPECT_EQ(reports[0].hash, configuration_hash("x: 1\n"));
 }
 
+/// A node with notes of its own.
+class Noter final : public Node {
+ public:
+  explicit Noter(std::vector<std::string> notes) : notes_(std::move(notes)) {}
+  [[nodiscard]] UTime next_wakeup() const override { return kNever; }
+  void step(UTime /*now*/) override {}
+  [[nodiscard]] NodeHealth health() const override { return {ProcessState::Ready, ""}; }
+  [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
+
+ private:
+  std::vector<std::string> notes_;
+};
+
+std::string reported(const std::string& yaml, const std::vector<std::string>& notes) {
+  VirtualRunner runner(kStart);
+  std::optional<ConfigurationReport> report;
+  runner.observer().subscribe(channels::kConfiguration, [&](const ConfigurationReport& r) { report = r; });
+  runner.start(
+      "tern-test", [&](Bus&) { return std::make_unique<Noter>(notes); }, yaml);
+  runner.run(kStart + Duration{100'000});
+  return report ? report->yaml : "no report";
+}
+
+TEST(NodeHost, ReportsANodesNotesAsComments) {
+  EXPECT_EQ(reported("x: 1\n", {"obstacle 1: a", "two\nlines"}), "x: 1\n# obstacle 1: a\n# two lines\n");
+  EXPECT_EQ(reported("", {}), "");
+}
+
+TEST(NodeHost, SaysHowManyNotesDidNotFit) {
+  const std::vector<std::string> notes(10'000, "obstacle 1: a");
+  const std::string yaml = reported("x: 1\n", notes);
+  EXPECT_LE(yaml.size(), kMaxYamlText);
+  EXPECT_GT(yaml.size(), kMaxYamlText - 200);
+  EXPECT_TRUE(yaml.ends_with(" of 10000 notes\n")) << yaml.substr(yaml.size() - 80);
+  EXPECT_LE(reported(std::string(kMaxYamlText, '#'), notes).size(), kMaxYamlText);
+}
+
 /// A node that only waits.
 class Waiter final : public Node {
  public:

@@ -157,7 +157,10 @@ void Scene::receive(const Heartbeat& message, UTime now) {
 }
 
 void Scene::receive(const ConfigurationReport& message) {
-  if (auto names = tern::obstacle_names(message.yaml); !names.empty()) obstacle_names_ = std::move(names);
+  const bool knows_all = message.process == "tern-simulator";
+  if (auto names = tern::obstacle_names(message.yaml); !names.empty() && (knows_all || obstacle_names_.empty())) {
+    obstacle_names_ = std::move(names);
+  }
   const auto found = processes_.find(message.process);
   if (found != processes_.end()) found->second.configuration = message;
 }

@@ -29,6 +29,13 @@ TEST(ObstacleNames, CountTheGeneratedObstaclesFirst) {
   EXPECT_EQ(obstacle_names(world_of("step_aside", 0)), Names{}) << "its number is drawn";
 }
 
+TEST(ObstacleNames, AreThoseOfTheNotesAsWell) {
+  const std::string notes =
+      "# " + name_note(7, "hall: people#142") + "\n# obstacle x: y\n# obstacle 8\n# obstacle : z\n";
+  EXPECT_EQ(obstacle_names(world_of("none", 0) + notes),
+            (Names{{1, "gate: \"left\""}, {2, "passer"}, {7, "hall: people#142"}}));
+}
+
 TEST(ObstacleNames, FollowTheIds) {
   const Names names{{3, "gate"}};
   EXPECT_EQ(with_name(3, names), "3 'gate'");

@@ -81,6 +81,9 @@ Result<FlightRecord> load_flight(const std::string& path) {
   if (record->contents.events == 0) return fail(path + ": holds no complete message");
   record->summary_flight_s = summary_flight_s(path);
   for (const ConfigurationReport& report : record->configurations) {
+    for (auto& [id, name] : obstacle_names(report.yaml)) record->obstacle_names[id] = name;
+  }
+  for (const ConfigurationReport& report : record->configurations) {
     if (report.yaml.empty()) continue;
     try {
       ConfigDocument document = ConfigDocument::parse(report.yaml, report.process);
@@ -88,7 +91,6 @@ Result<FlightRecord> load_flight(const std::string& path) {
       const SemanticsSpec& semantics = scenario.semantics;
       record->regions = semantics.regions;
       record->class_labels.insert(semantics.classes.begin(), semantics.classes.end());
-      record->obstacle_names = obstacle_names(report.yaml);
       record->why = why(*record, timed(scenario, goals_from(*record)));
       break;
     } catch (const ConfigError&) {
