@@ -282,10 +282,12 @@ class Explainer {
                         "unknown voxels do so as well; {}a place farther away would help",
                         body, tube > 0.0 ? "a smaller executor.tube_m, " : "");
     }
-    return text + fmt::format(
-                      "no certified way for {} past the obstacles; more room, a smaller tube or body, or later "
-                      "obstacles would help, and tern-replay plans an answer again",
-                      body);
+    return text +
+           fmt::format(
+               "no certified way for {} past the obstacles; more room, a smaller tube or body, or later "
+               "obstacles would help, and tern-replay plans an answer again",
+               body) +
+           overload_text();
   }
 
   [[nodiscard]] std::string slow_text() const {

@@ -129,6 +129,7 @@ void PredictorNode::have_input(const std::string& input, UTime made_at) {
 }
 
 void PredictorNode::step(UTime now) {
+  if (is_sending()) return;
   use_waiting();
   if (now < next_) return;
   publish(now);

@@ -46,6 +46,8 @@ inline constexpr Duration kMaxAge{10'000'000};
 ///   waits, or kMaxWaitingSets do, and counted as late. step() takes kMaxWorkPerStep and one set at most, so that
 ///   heartbeats and signals wait no longer, however many sets have arrived. A set out of order may take some 150 ms
 ///   (kMaxReplayed).
+/// - A set is sent whole before the next observation set is used: a part of it serves nobody. The runner sends a batch
+///   after each step, so a step of long work between two batches would keep a large set from being complete in time.
 /// - A track or message that every receiver would refuse is not sent but counted, and HEARTBEAT names its field.
 /// - With ODOMETRY, declared tracks get a margin for the error of the vehicle's pose in W (models/world_error.h).
 ///   Estimated tracks get none, because the vehicle sees them relative to itself.
@@ -61,12 +63,15 @@ class PredictorNode final : public Node {
   PredictorNode(Bus& bus, const PredictorConfig& config);
 
   [[nodiscard]] UTime next_wakeup() const override {
+    if (is_sending()) return kNever;
     return waiting_.empty() ? next_ : std::min(next_, waiting_[0].arrived);
   }
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
 
  private:
+  /// Whether batches of the last set are still to be sent.
+  [[nodiscard]] bool is_sending() const { return bus_.next_due() != kNever; }
   void on_declared(const TrackSet& batch);
   void on_frame(SensorFrame frame);
   void use_waiting();

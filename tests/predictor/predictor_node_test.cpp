@@ -492,6 +492,29 @@ TEST_F(Backlog, SetsThatWaitedTooLongAreSkippedForNewerOnes) {
   EXPECT_GE(node_.next_wakeup(), clock_.now()) << "none waits any longer";
 }
 
+TEST_F(Backlog, LargeSetsAreSentWholeHoweverLongAStepTakes) {
+  TrackSet declared;
+  declared.batch.set = 1;
+  declared.made_at = clock_.now();
+  for (int k = 0; k < 400; ++k) declared.tracks.push_back(mover(k, Vec3(k, 0, 1), Vec3::Zero(), clock_.now()));
+  sensor_.publish_paced(channels::kDeclaredMotions, split_batches(declared));
+  int whole = 0;
+  BatchCollector<TrackSet> collector;
+  Bus planner(lcm_, clock_, 3);
+  planner.subscribe(channels::kPredictions, [&](const TrackSet& batch) { whole += collector.add(batch) ? 1 : 0; });
+  for (int k = 0; k < 100; ++k) {
+    ObservationSet set;
+    set.at = clock_.now();
+    sensor_.publish(channels::kObstacleObservations, set);
+    drain(*lcm_, 100);
+    clock_.advance(Duration{80'000});  // the work of the step
+    node_.step(clock_.now());
+    for (Bus* bus : {&bus_, &sensor_}) bus->send_due(clock_.now());
+  }
+  EXPECT_GT(whole, 10);
+  EXPECT_EQ(bus_.unsent(), 0);
+}
+
 TEST_F(Backlog, HoldsABoundedNumberOfSets) {
   for (std::size_t k = 0; k < kMaxWaitingSets; ++k) {
     ObservationSet set;
