@@ -47,7 +47,7 @@ inline constexpr Duration kMaxAge{10'000'000};
 ///   heartbeats and signals wait no longer, however many sets have arrived. A set out of order may take some 150 ms
 ///   (kMaxReplayed).
 /// - A set is sent whole before the next observation set is used: a part of it serves nobody. The runner sends a batch
-///   after each step, so a step of long work between two batches would keep a large set from being complete in time.
+///   after each step, so long steps between them would keep a large set from being complete in time.
 /// - A track or message that every receiver would refuse is not sent but counted, and HEARTBEAT names its field.
 /// - With ODOMETRY, declared tracks get a margin for the error of the vehicle's pose in W (models/world_error.h).
 ///   Estimated tracks get none, because the vehicle sees them relative to itself.
