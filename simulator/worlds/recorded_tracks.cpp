@@ -65,7 +65,7 @@ struct RowCounts {
   std::int64_t alone = 0;     ///< positions without a neighbour in time
   std::int64_t jumps = 0;
   double fastest = 0.0;  ///< of the jumps, m/s
-  std::int64_t fastest_id = 0;
+  std::string fastest_name;
 };
 
 /// Sorts the positions by time and leaves out those of the same microsecond, or sooner than least_step_s.
@@ -104,7 +104,7 @@ void find_jumps(const RecordedTrack& track, RowCounts& counts) {
     ++counts.jumps;
     if (speed > counts.fastest) {
       counts.fastest = speed;
-      counts.fastest_id = track.id;
+      counts.fastest_name = track.name;
     }
   }
 }
@@ -116,13 +116,13 @@ void add_parts(RecordedTrack track, std::vector<RecordedTrack>& parts, RowCounts
     steps.push_back(track.points[k].first - track.points[k - 1].first);
   }
   const double gap = steps.empty() ? 0.0 : std::max(kMinGap, kGapSteps * median_of(steps));
-  RecordedTrack part{track.id, {}, 0};
+  RecordedTrack part{track.id, {}, 0, track.name};
   const auto finish = [&] {
     find_jumps(part, counts);
     const bool is_alone = part.points.size() == 1 && track.points.size() > 1;
     counts.alone += is_alone ? 1 : 0;
     if (!is_alone) parts.push_back(part);
-    part = {track.id, {}, part.part + 1};
+    part = {track.id, {}, part.part + 1, track.name};
   };
   for (std::size_t k = 0; k < track.points.size(); ++k) {
     if (k > 0 && steps[k - 1] > gap) {
@@ -156,7 +156,7 @@ std::vector<std::string> remarks_on(const std::string& name, const TrackRows& ro
          fmt::format(
              "{} steps are faster than {:g} m/s, or than {:g} m/s and {:g} times their track's median. The fastest "
              "has {:.3g} m/s, in track {}: an id may have changed its owner",
-             counts.jumps, kMaxSpeed, kMinJumpSpeed, kJumpRatio, counts.fastest, counts.fastest_id));
+             counts.jumps, kMaxSpeed, kMinJumpSpeed, kJumpRatio, counts.fastest, counts.fastest_name));
   return remarks;
 }
 
@@ -182,6 +182,10 @@ std::vector<double> crowded_instants(const std::vector<RecordedTrack>& tracks, c
   return instants;
 }
 
+std::string name_of(std::int64_t id, const TrackRows& rows) {
+  return id < kFirstTextId ? fmt::format("{}", id) : rows.text_ids[static_cast<std::size_t>(id - kFirstTextId)];
+}
+
 }  // namespace
 
 Result<RecordedFile> parse_recorded_tracks(std::string_view text, const std::string& name,
@@ -205,6 +209,7 @@ Result<RecordedFile> parse_recorded_tracks(std::string_view text, const std::str
     }
     RecordedTrack& track = tracks[row.id];
     track.id = row.id;
+    if (track.name.empty()) track.name = name_of(row.id, *read);
     track.points.emplace_back(time, row.p);
   }
   RecordedFile file;
@@ -278,7 +283,7 @@ std::vector<ObstacleSpec> recorded_obstacles(const std::vector<RecordedTrack>& t
     for (const auto& [t, p] : track.points) motion.points.emplace_back(whole_microseconds(t - start_s), p);
     if (motion.points.size() < 2 || motion.points.back().first <= 0.0) continue;
     ObstacleSpec o;
-    o.name = fmt::format("{}#{}{}", stem, track.id, track.part > 0 ? fmt::format(".{}", track.part + 1) : "");
+    o.name = fmt::format("{}#{}{}", stem, track.name, track.part > 0 ? fmt::format(".{}", track.part + 1) : "");
     o.half_extents = spec.half_extents;
     o.motion = std::move(motion);
     obstacles.push_back(std::move(o));

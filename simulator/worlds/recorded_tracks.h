@@ -19,9 +19,10 @@ inline constexpr double kMaxFrameRate = 1e9;  ///< 1/s: times in nanoseconds
 
 /// A recorded path: straight lines between frames; absent before the first and after the last.
 struct RecordedTrack {
-  std::int64_t id = 0;                          ///< as in the file; 0 if the file is one track
+  std::int64_t id = 0;                          ///< TrackRow::id
   std::vector<std::pair<double, Vec3>> points;  ///< (time in s, box centre in W, m), times ascending, ≥ 1
   int part = 0;                                 ///< of a track that is cut at its gaps, from 0
+  std::string name;                             ///< the id as in the file
 };
 
 /// The tracks of a file, and what the user should know of them.

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "core/base/plain_text.h"
@@ -15,6 +16,8 @@ namespace tern {
 namespace {
 
 constexpr double kMaxWholeId = 1e15;
+constexpr std::size_t kId = 4;  // of RowReader's values
+constexpr std::size_t kMaxTextId = 40;
 constexpr std::string_view kBlank = " \t\r";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -72,7 +75,12 @@ class RowReader {
     }
     for (std::size_t k = 0; k < used_.size(); ++k) {
       const std::string_view word = words_[idx(used_[k])];
-      const std::optional<double> value = to_number(word);
+      std::optional<double> value = to_number(word);
+      if (k == kId) text_id_.reset();
+      if (!value && k == kId && spec_.id_column >= 0) {
+        text_id_ = number_of(word);
+        value = 0.0;
+      }
       if (!value) return fmt::format("'{}' is not a number", plain_text(word, 40));
       values_[k] = *value;
     }
@@ -91,7 +99,7 @@ class RowReader {
       ++result.not_finite;
       return "";
     }
-    const double id = spec_.id_column < 0 ? 0.0 : values_[4];
+    const double id = spec_.id_column < 0 ? 0.0 : values_[kId];
     if (id != std::floor(id) || std::abs(id) > kMaxWholeId) return fmt::format("id {} is not a whole number", id);
     const double unit = spec_.metres_per_unit;
     const Vec3 p(values_[1] * unit, values_[2] * unit, spec_.z_column ? values_[3] * unit : spec_.centre_z);
@@ -99,13 +107,23 @@ class RowReader {
       return fmt::format("position ({}, {}, {}) m, beyond {} m", p.x(), p.y(), p.z(), WorldObstacle::kMaxCoordinate);
     }
     if (result.rows.size() == kMaxTrackRows) return fmt::format("more than {} rows", kMaxTrackRows);
-    result.rows.push_back({static_cast<std::int64_t>(id), values_[0], p, line_number});
+    result.rows.push_back({text_id_.value_or(static_cast<std::int64_t>(id)), values_[0], p, line_number});
     return "";
   }
 
+  /// Returns the number that stands for an id that is text.
+  std::int64_t number_of(std::string_view id) {
+    const auto next = kFirstTextId + static_cast<std::int64_t>(result.text_ids.size());
+    const auto [known, is_new] = text_ids_.try_emplace(plain_text(id, kMaxTextId), next);
+    if (is_new) result.text_ids.push_back(known->first);
+    return known->second;
+  }
+
   const RecordedTracksSpec& spec_;
-  std::vector<int> used_;           // columns of frame, x, y, z, id; a column that is not read stands for another
-  std::array<double, 5> values_{};  // of these
+  std::vector<int> used_;                // columns of frame, x, y, z, id; a column that is not read stands for another
+  std::array<double, 5> values_{};       // of these
+  std::optional<std::int64_t> text_id_;  // of the row, if its id is text
+  std::map<std::string, std::int64_t> text_ids_;
   std::vector<std::string_view> words_;
   bool has_begun_ = false;
 };

@@ -105,6 +105,15 @@ TEST(RecordedTracks, MayHaveCommasAHeaderAMarkAndTextInOtherColumns) {
   }
 }
 
+TEST(RecordedTracks, MayHaveIdsThatAreText) {
+  const RecordedFile file = parsed("Drone B,10,100,200,x\n7,10,0,0,x\nDrone A,10,1,1,x\nDrone B,20,150,200,x\n");
+  ASSERT_EQ(file.tracks.size(), 3U);
+  EXPECT_EQ(file.tracks[0].name, "7");
+  EXPECT_EQ(file.tracks[1].name, "Drone B");
+  EXPECT_EQ(file.tracks[1].points.size(), 2U);
+  EXPECT_EQ(file.tracks[2].name, "Drone A");
+}
+
 TEST(RecordedTracks, LeaveOutAndCountRowsWithoutANumberAndRowsOfATimeThatIsTaken) {
   const RecordedFile file = parsed("1,10,0,0,0\n1,11,nan,0,0\n1,12,,0,0\n1,13,1e999,0,0\n1,14,1,0,nan\n1,14,9,9,0\n");
   ASSERT_EQ(file.tracks.at(0).points.size(), 2u);
@@ -173,7 +182,8 @@ TEST(RecordedTracks, OfAMissingFileAreAnError) {
 
 /// A person walks along x through the origin, 1 m/s, there at 10 s; recorded each second from 0 to 20 s.
 std::vector<RecordedTrack> walker() {
-  RecordedTrack track{1, {}};
+  RecordedTrack track;
+  track.name = "1";
   for (int k = 0; k <= 20; ++k) track.points.emplace_back(k, Vec3(k - 10.0, 0, 1));
   return {track};
 }
