@@ -23,6 +23,15 @@ pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(CYCLONEDDS IMPORTED_TARGET CycloneDDS)
 # For missions and fences in latitude and longitude; optional (geodesy/).
 pkg_check_modules(GEOGRAPHIC QUIET IMPORTED_TARGET geographiclib)
+# LASzip, for tern-unlaz alone; optional (Debian 13: liblaszip-dev).
+find_path(LASZIP_INCLUDE_DIR laszip/laszip_api.h)
+find_library(LASZIP_LIBRARY laszip)
+mark_as_advanced(LASZIP_INCLUDE_DIR LASZIP_LIBRARY)
+if(LASZIP_INCLUDE_DIR AND LASZIP_LIBRARY)
+  add_library(LASzip INTERFACE)
+  target_include_directories(LASzip SYSTEM INTERFACE ${LASZIP_INCLUDE_DIR})
+  target_link_libraries(LASzip INTERFACE ${LASZIP_LIBRARY})
+endif()
 
 if(TERN_BUILD_TESTS)
   find_package(GTest REQUIRED)

@@ -28,10 +28,10 @@ struct ProcessEnd {
   int signal = 0;     ///< signal that ended it, or 0
 };
 
-/// Starts a program with empty standard input and no signal blocked. The kernel kills it when the parent dies for any
-/// reason. A child that cannot execute the program reports why on its standard error. Its exit code is then 127 if the
-/// program does not exist, else 126.
-/// @pre the caller has one thread  @return its process id  @throws std::runtime_error if no process can be made
+/// Starts a program with empty standard input and no signal blocked. The kernel kills it when the parent, or the thread
+/// that calls this, ends for any reason. A child that cannot execute the program reports why on its standard error. Its
+/// exit code is then 127 if the program does not exist, else 126.
+/// @return its process id  @throws std::runtime_error if no process can be made
 pid_t start_child(const ChildProcess& child);
 
 /// Opens a file for appending, close-on-exec. @return its descriptor  @throws std::runtime_error that names the file

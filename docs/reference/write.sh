@@ -81,9 +81,11 @@ TEXT
   done
 }
 
-# of_built: the page on standard input without the section of a program that was not built, since its library is missing.
+# of_built: the page on standard input without the sections of programs that were not built, since their library is missing.
 of_built() {
-  if [[ -x $bin/tern-ros2 ]]; then cat; else awk '/^## / { skip = $2 == "tern-ros2" } !skip'; fi
+  local name missing=
+  for name in tern-ros2 tern-unlaz; do [[ -x $bin/$name ]] || missing+=" $name "; done
+  awk -v missing="$missing" '/^## / { skip = index(missing, " " $2 " ") > 0 } !skip'
 }
 
 # page NAME: writes NAME.md, or compares it.

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "runtime/data_folder.h"
+#include "semantic_mapper/app/laz.h"
 #include "semantic_mapper/sources/class_names.h"
 #include "semantic_mapper/sources/las.h"
 #include "semantic_mapper/sources/pcd.h"
@@ -79,6 +80,13 @@ SourceFile read_file(const CloudSource& source, const Scenario& scenario, const 
   return {path.string(), read_bytes(path, source)};
 }
 
+Result<CloudFile> parse_las_or_laz(const CloudSource& source, const SourceFile& file) {
+  if (!is_compressed_las(file.bytes)) return parse_las(file.bytes, file.path, source.frame);
+  const auto points = decompress_laz(file.path, unlaz_program(), kMaxCloudBytes);
+  if (!points) return tl::unexpected(points.error());
+  return parse_las(*points, file.path, source.frame);
+}
+
 Result<CloudFile> parse_cloud(const CloudSource& source, const SourceFile& file) {
   switch (source.format) {
     case CloudFormat::Ply: return parse_ply(file.bytes, file.path, source.frame, source.label);
@@ -87,7 +95,7 @@ Result<CloudFile> parse_cloud(const CloudSource& source, const SourceFile& file)
     case CloudFormat::Las:
     case CloudFormat::OctoMap: break;
   }
-  return parse_las(file.bytes, file.path, source.frame);
+  return parse_las_or_laz(source, file);
 }
 
 }  // namespace

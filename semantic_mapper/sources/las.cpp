@@ -25,6 +25,12 @@ constexpr std::size_t kHeaderSize14 = 375;
 
 /// The size of a record's standard fields by format, bytes. Files may append fields of their own.
 constexpr std::array<std::size_t, 11> kRecordLength{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+/// LASzip adds this to the format of compressed records.
+constexpr std::uint8_t kCompressedFrom = 128;
+
+bool is_las(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 4 && std::string_view(reinterpret_cast<const char*>(bytes.data()), 4) == "LASF";
+}
 
 struct LasHeader {
   std::size_t data_offset = 0;
@@ -52,15 +58,13 @@ Result<LasHeader> read_header(std::span<const std::uint8_t> bytes, const std::st
   if (bytes.size() < kHeaderSize) {
     return bad_file(file, bytes.size(), fmt::format("the file ends within the header of {} bytes", kHeaderSize));
   }
-  if (std::string_view(reinterpret_cast<const char*>(bytes.data()), 4) != "LASF") {
-    return bad_file(file, 0, "no LAS file: it does not begin with LASF");
-  }
+  if (!is_las(bytes)) return bad_file(file, 0, "no LAS file: it does not begin with LASF");
   if (bytes[kMajorAt] != 1 || bytes[kMinorAt] > 4) {
     return bad_file(file, kMajorAt,
                     fmt::format("LAS version {}.{} (limit 1.0 to 1.4)", bytes[kMajorAt], bytes[kMinorAt]));
   }
   const std::uint8_t format = bytes[kFormatAt];
-  if (format >= 128) {
+  if (format >= kCompressedFrom) {
     return bad_file(file, kFormatAt,
                     "compressed (LAZ) points: decompress the file first, as by `pdal translate FILE.laz FILE.las`");
   }
@@ -95,6 +99,10 @@ Result<LasHeader> read_header(std::span<const std::uint8_t> bytes, const std::st
 }
 
 }  // namespace
+
+bool is_compressed_las(std::span<const std::uint8_t> bytes) {
+  return is_las(bytes) && bytes.size() > kFormatAt && bytes[kFormatAt] >= kCompressedFrom;
+}
 
 Result<CloudFile> parse_las(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame) {
   const auto header = read_header(bytes, file);

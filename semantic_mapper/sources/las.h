@@ -9,6 +9,9 @@
 
 namespace tern {
 
+/// Returns whether these bytes begin a LAS file whose points are compressed (LAZ).
+bool is_compressed_las(std::span<const std::uint8_t> bytes);
+
 /// Returns the points of an uncompressed LAS file with point data record format 0–10. O(points).
 ///
 /// Positions are computed by the header's scale and offset, then by `frame`. The class is in the low five bits (formats

@@ -56,6 +56,7 @@ one_folder Ipopt '^(coin/)?Ip[A-Z].*[.]hpp$'
 one_folder Beast '^boost/beast'
 one_folder GeographicLib '^GeographicLib/'
 only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
+only_in '^laszip/' '^(semantic_mapper/app/unlaz_main[.]cpp|tests/semantic_mapper/unlaz_test[.]cpp)$' 'LASzip trusts its input'
 only_in '^dds/' '^ros2/dds/' 'Cyclone DDS is for one adapter'
 
 # base <- geometry <- splines <- world <- scenario <- process libraries <- apps; wire stands on base alone.

@@ -19,6 +19,7 @@ namespace tern {
 namespace {
 
 using support::FileBytes;
+using support::mutated;
 
 const int kMutations = support::at_effort(10'000);
 /// Compressed data may hold this many times its bytes.
@@ -31,30 +32,6 @@ PointCloud some_points(Rng& rng) {
     points.push_back({p, static_cast<std::uint8_t>(rng.uniform(0, 32))});
   }
   return points;
-}
-
-/// Flips, overwrites, removes, repeats or cuts off some bytes, mostly in the header.
-FileBytes mutated(FileBytes bytes, Rng& rng) {
-  for (int n = 1 + static_cast<int>(rng.uniform(0, 4)); n > 0 && !bytes.empty(); --n) {
-    const double reach =
-        rng.uniform() < 0.7 ? std::min(400.0, static_cast<double>(bytes.size())) : static_cast<double>(bytes.size());
-    const auto at = static_cast<std::ptrdiff_t>(rng.uniform(0, reach));
-    const auto length =
-        std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(rng.uniform(0, 9)), std::ssize(bytes) - at);
-    switch (static_cast<int>(rng.uniform(0, 6))) {
-      case 0:
-        bytes[static_cast<std::size_t>(at)] ^= static_cast<std::uint8_t>(1 << static_cast<int>(rng.uniform(0, 8)));
-        break;
-      case 1: bytes[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(rng.uniform(0, 256)); break;
-      case 2: std::fill_n(bytes.begin() + at, length, rng.uniform() < 0.5 ? 0xff : 0x00); break;
-      case 3: bytes.erase(bytes.begin() + at, bytes.begin() + at + length); break;
-      case 4:
-        bytes.insert(bytes.begin() + at, static_cast<std::size_t>(length), bytes[static_cast<std::size_t>(at)]);
-        break;
-      default: bytes.resize(static_cast<std::size_t>(at)); break;
-    }
-  }
-  return bytes;
 }
 
 void expect_sane(const Result<CloudFile>& cloud, std::size_t most) {

@@ -37,6 +37,29 @@ FileBytes las_file(const PointCloud& points, const LasSpec& spec) {
   return bytes;
 }
 
+FileBytes mutated(FileBytes bytes, Rng& rng) {
+  for (int n = 1 + static_cast<int>(rng.uniform(0, 4)); n > 0 && !bytes.empty(); --n) {
+    const double reach =
+        rng.uniform() < 0.7 ? std::min(400.0, static_cast<double>(bytes.size())) : static_cast<double>(bytes.size());
+    const auto at = static_cast<std::ptrdiff_t>(rng.uniform(0, reach));
+    const auto length =
+        std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(rng.uniform(0, 9)), std::ssize(bytes) - at);
+    switch (static_cast<int>(rng.uniform(0, 6))) {
+      case 0:
+        bytes[static_cast<std::size_t>(at)] ^= static_cast<std::uint8_t>(1 << static_cast<int>(rng.uniform(0, 8)));
+        break;
+      case 1: bytes[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(rng.uniform(0, 256)); break;
+      case 2: std::fill_n(bytes.begin() + at, length, rng.uniform() < 0.5 ? 0xff : 0x00); break;
+      case 3: bytes.erase(bytes.begin() + at, bytes.begin() + at + length); break;
+      case 4:
+        bytes.insert(bytes.begin() + at, static_cast<std::size_t>(length), bytes[static_cast<std::size_t>(at)]);
+        break;
+      default: bytes.resize(static_cast<std::size_t>(at)); break;
+    }
+  }
+  return bytes;
+}
+
 FileBytes ply_file(const PointCloud& points, PlyKind kind, const std::string& class_property) {
   constexpr const char* kFormats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
   std::string text = "ply\nformat " + std::string(kFormats[static_cast<int>(kind)]) +

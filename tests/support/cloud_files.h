@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/random.h"
 #include "core/world/voxel_map.h"
 #include "semantic_mapper/sources/point_cloud.h"
 
@@ -43,6 +44,9 @@ FileBytes text_file(const PointCloud& points, char separator = ' ');
 /// labels[x + side (y + side z)]. Cubes of one label are one leaf.
 /// @param side  voxels per axis, a power of two
 FileBytes octomap_file(const std::vector<VoxelLabel>& labels, int side, bool is_binary);
+
+/// Flips, overwrites, removes, repeats or cuts off some bytes, mostly in the header.
+FileBytes mutated(FileBytes bytes, Rng& rng);
 
 /// Overwrites the sizeof(value) bytes at `offset`.
 template <class T>
