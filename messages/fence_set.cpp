@@ -1,7 +1,16 @@
+#include <cmath>
+
 #include "messages/form.h"
 #include "tern_msgs/fence_set_t.hpp"
 
 namespace tern {
+
+namespace {
+
+/// True for +0 alone: −0 would be another message.
+bool is_blank(double x) { return x == 0.0 && !std::signbit(x); }
+
+}  // namespace
 
 template <>
 struct wire::Form<FenceSet> {
@@ -59,7 +68,7 @@ struct wire::Form<FenceSet> {
           read.named("corner_count").integer(fence.corner_count, 3, kMaxFenceCornersPerMessage));
       for (const tern_msgs::fence_corner_t& corner : corners.take(count))
         polygon.corners.emplace_back(coordinate("corner.x", corner.x), coordinate("corner.y", corner.y));
-      read.consistent(centre.isZero(0.0), "a polygon has a centre");
+      read.consistent(is_blank(fence.x) && is_blank(fence.y) && is_blank(fence.radius), "a polygon has a centre");
       set.fences[k].shape = std::move(polygon);
     }
     read.leave();
