@@ -95,7 +95,8 @@ void VirtualSystem::start(const std::string& process) {
     if (process == "tern-executor") return std::make_unique<ExecutorNode>(bus, parts_->scenario.uav, parts_->executor);
     if (process == "tern-predictor") return std::make_unique<PredictorNode>(bus, parts_->predictor);
     if (process == "tern-mapper") {
-      return std::make_unique<MapperNode>(bus, parts_->map.map, live_setup(parts_->scenario, parts_->mapper),
+      const std::optional<Box> fenced = fenced_by_uploads(parts_->scenario, parts_->mapper);
+      return std::make_unique<MapperNode>(bus, parts_->map.map, live_setup(parts_->scenario, parts_->mapper), fenced,
                                           warnings_of(parts_->map.remarks));
     }
     if (process == "tern-estimator") {
@@ -107,6 +108,7 @@ void VirtualSystem::start(const std::string& process) {
       setup.site = mission::site_of(parts_->scenario, parts_->mission.progress);
       setup.uav = parts_->scenario.uav;
       setup.config = parts_->mission.progress;
+      setup.fence_uploads = parts_->mission.fence_uploads;
       return std::make_unique<mission::MissionNode>(bus, std::move(setup));
     }
     if (process != "tern-planner") throw std::invalid_argument("VirtualSystem: no process " + process);

@@ -24,7 +24,7 @@ std::vector<std::string> overrides_of(const LaunchOptions& options) {
   }
   if (!options.mission.empty()) {
     values.push_back(std::string("simulator.goals_from=") + kMission);
-    if (!is_uploaded(options)) values.push_back("mission.file=" + options.mission);
+    values.push_back(is_uploaded(options) ? "mission.fence_uploads=true" : "mission.file=" + options.mission);
   }
   values.insert(values.end(), options.overrides.begin(), options.overrides.end());
   return values;

@@ -238,6 +238,20 @@ struct SetPositionTargetLocalNed {
   }
 };
 
+/// The abilities of a vehicle, for ground stations.
+struct AutopilotVersion {
+  static constexpr std::uint32_t kId = 148;
+  static constexpr std::uint8_t kCrcExtra = 178, kMinLength = 60;
+  std::uint64_t capabilities = 0, uid = 0;  ///< MAV_PROTOCOL_CAPABILITY
+  std::array<std::uint32_t, 4> versions{};  ///< flight, middleware, operating system, board
+  std::uint16_t vendor_id = 0, product_id = 0;
+  std::array<std::uint8_t, 24> custom_versions{};  ///< flight, middleware, operating system
+  std::array<std::uint8_t, 18> uid2{};
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.capabilities, m.uid, m.versions, m.vendor_id, m.product_id, m.custom_versions, m.uid2);
+  }
+};
+
 struct Timesync {
   static constexpr std::uint32_t kId = 111;
   static constexpr std::uint8_t kCrcExtra = 34, kMinLength = 16;
@@ -311,7 +325,7 @@ using AllMessages =
                GlobalPositionInt, GpsGlobalOrigin, CommandLong, CommandAck, SetPositionTargetLocalNed, Timesync,
                HilStateQuaternion, EstimatorStatus, ExtendedSysState, StatusText, Odometry, MissionRequest,
                MissionCurrent, MissionRequestList, MissionCount, MissionClearAll, MissionItemReached, MissionAck,
-               MissionRequestInt, MissionItemInt>;
+               MissionRequestInt, MissionItemInt, AutopilotVersion>;
 
 /// The length of a message's fields in bytes, with extensions.
 template <class M>

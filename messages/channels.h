@@ -9,6 +9,7 @@
 
 #include "core/base/time.h"
 #include "core/wire/health.h"
+#include "core/world/fence_set.h"
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
@@ -66,6 +67,8 @@ inline constexpr Duration kSilence{1'000'000};
 inline constexpr Duration kShortSilence{300'000};
 /// MAP_FILE is repeated every 5 s.
 inline constexpr Duration kMapFileSilence{6'000'000};
+/// FENCES is repeated every second.
+inline constexpr Duration kFencesSilence{1'500'000};
 inline constexpr auto kAnyone = std::nullopt;
 inline constexpr bool kLatched = true, kStream = false;
 
@@ -112,6 +115,10 @@ inline constexpr Channel<Goal> kGoal{
 /// How fast to fly to a goal; sent before the GOAL whose id it names.
 inline constexpr Channel<SpeedLimit> kSpeedLimit{
     "SPEED_LIMIT", Scope::Vehicle, "with a GOAL that has one", kLatched, Role::Operator, kAnyone};
+/// The fences that a ground station has uploaded, beside those of the scenario.
+inline constexpr Channel<FenceSet> kFences{
+    "FENCES", Scope::Vehicle, "when they change, repeated at 1 Hz; only with `mission.fence_uploads`", kLatched,
+    Role::Operator, kFencesSilence};
 /// Asks for a plan from the committed state at t_s, by a deadline, within limits.
 inline constexpr Channel<HorizonRequest> kHorizonRequest{
     "HORIZON_REQUEST", Scope::Vehicle, "10–20 Hz", kStream, Role::Executor, kShortSilence};
@@ -158,13 +165,35 @@ inline constexpr Channel<FlightResult> kFlightResult{
     "FLIGHT_RESULT", Scope::Vehicle, "at the end", kLatched, Role::Vehicle, kSilence};
 // clang-format on
 
-inline constexpr std::tuple kAll{kUavState,          kSetpoint,     kVehicleStatus, kObstacleObservations,
-                                 kObstacleSightings, kPointCloud,   kDepthImage,    kDeclaredMotions,
-                                 kPredictions,       kTrackBounds,  kSemanticMap,   kGoal,
-                                 kHorizonRequest,    kPlan,         kPlanHeading,   kPlanTiming,
-                                 kSearchView,        kHeartbeat,    kConfiguration, kObstacleTruth,
-                                 kVehicleTruth,      kImu,          kFeatureTracks, kPositionFix,
-                                 kOdometry,          kFlightResult, kMapFile,       kSpeedLimit};
+inline constexpr std::tuple kAll{kUavState,
+                                 kSetpoint,
+                                 kVehicleStatus,
+                                 kObstacleObservations,
+                                 kObstacleSightings,
+                                 kPointCloud,
+                                 kDepthImage,
+                                 kDeclaredMotions,
+                                 kPredictions,
+                                 kTrackBounds,
+                                 kSemanticMap,
+                                 kGoal,
+                                 kHorizonRequest,
+                                 kPlan,
+                                 kPlanHeading,
+                                 kPlanTiming,
+                                 kSearchView,
+                                 kHeartbeat,
+                                 kConfiguration,
+                                 kObstacleTruth,
+                                 kVehicleTruth,
+                                 kImu,
+                                 kFeatureTracks,
+                                 kPositionFix,
+                                 kOdometry,
+                                 kFlightResult,
+                                 kMapFile,
+                                 kSpeedLimit,
+                                 kFences};
 
 }  // namespace channels
 

@@ -68,6 +68,10 @@ template <>
 inline constexpr const char* kLcmType<Goal> = "goal_t";
 template <>
 inline constexpr const char* kLcmType<SpeedLimit> = "speed_limit_t";
+/// Inconsistent: the fences' corner counts do not sum to the number of corners; a polygon has a centre. A polygon may
+/// cross itself: the mapper refuses it.
+template <>
+inline constexpr const char* kLcmType<FenceSet> = "fence_set_t";
 /// Time: t_s precedes the committed trajectory; the deadline is later than t_s − kDeadlineLead. Inconsistent: the
 /// committed trajectory does not end at rest; `start` differs from its state at t_s by more than kJoinTolerance; the
 /// flight box is empty.

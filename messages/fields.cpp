@@ -127,9 +127,13 @@ void FieldReader::describe(const char* part, std::int64_t value) {
   refused_field_ = of.empty() ? "" : fmt::format("{} is {}", of, value);
 }
 
-bool all_different(std::vector<std::int64_t> values) {
+void FieldReader::all_different(std::vector<std::int64_t> values, const char* broken) {
   std::sort(values.begin(), values.end());
-  return std::adjacent_find(values.begin(), values.end()) == values.end();
+  const auto twice = std::adjacent_find(values.begin(), values.end());
+  if (twice == values.end()) return;
+  const bool is_told = !refused_ || Rejection::Inconsistent < *refused_;
+  consistent(false, broken);
+  if (is_told) refused_field_ += fmt::format(" {}", *twice);
 }
 
 }  // namespace tern::wire

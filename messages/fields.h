@@ -212,6 +212,9 @@ class FieldReader {
   bool in_order(bool ok, const char* broken = "") { return note(ok, Rejection::Time, broken); }
   bool consistent(bool ok, const char* broken = "") { return note(ok, Rejection::Inconsistent, broken); }
 
+  /// Notes whether no value occurs twice. @param broken  "two tracks have the id": the value follows
+  void all_different(std::vector<std::int64_t> values, const char* broken);
+
   /// True if every field so far was accepted.
   [[nodiscard]] bool ok() const { return !refused_; }
   /// The field with the reason that accept() returns, and its value: "detections[1].position.x is nan"; or the broken
@@ -256,8 +259,5 @@ class FieldReader {
   const char *list_ = "", *name_ = "";  // of the field that is being read
   std::size_t index_ = 0;
 };
-
-/// True if no value occurs twice.
-bool all_different(std::vector<std::int64_t> values);
 
 }  // namespace tern::wire

@@ -78,7 +78,7 @@ struct wire::Form<FeatureFrame> {
     std::vector<std::int64_t> ids;
     ids.reserve(frame.features.size());
     for (const StereoFeature& feature : frame.features) ids.push_back(feature.id);
-    read.consistent(all_different(std::move(ids)), "two features have one id");
+    read.all_different(std::move(ids), "two features have the id");
   }
 };
 

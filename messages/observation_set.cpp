@@ -33,7 +33,7 @@ struct wire::Form<ObservationSet> {
     for (const Detection& d : set.detections) {
       if (d.track_id != kNoTrackId) ids.push_back(d.track_id);
     }
-    read.consistent(all_different(std::move(ids)), "two detections have one track_id");
+    read.all_different(std::move(ids), "two detections have the track_id");
   }
 };
 

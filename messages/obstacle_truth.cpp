@@ -28,7 +28,7 @@ struct wire::Form<ObstacleTruth> {
   static void read_rest(FieldReader& read, const Message& m, ObstacleTruth&) {
     std::vector<std::int64_t> ids;
     for (const tern_msgs::true_obstacle_t& o : m.obstacles) ids.push_back(o.id);
-    read.consistent(all_different(std::move(ids)));
+    read.all_different(std::move(ids), "two obstacles have the id");
   }
 };
 

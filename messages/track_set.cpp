@@ -132,7 +132,7 @@ struct wire::Form<TrackSet> {
     }
     read.leave();
     read.consistent(pieces.complete() && shares.complete(), "the tracks' piece counts do not sum to the pieces");
-    read.consistent(all_different(std::move(ids)), "two tracks have one id");
+    read.all_different(std::move(ids), "two tracks have the id");
   }
 };
 

@@ -57,7 +57,13 @@ constexpr std::pair<int, const char*> kNames[] = {{16, "NAV_WAYPOINT"},
                                                   {2500, "VIDEO_START_CAPTURE"},
                                                   {2501, "VIDEO_STOP_CAPTURE"},
                                                   {3000, "DO_VTOL_TRANSITION"},
-                                                  {4501, "CONDITION_GATE"}};
+                                                  {4501, "CONDITION_GATE"},
+                                                  {5000, "NAV_FENCE_RETURN_POINT"},
+                                                  {5001, "NAV_FENCE_POLYGON_VERTEX_INCLUSION"},
+                                                  {5002, "NAV_FENCE_POLYGON_VERTEX_EXCLUSION"},
+                                                  {5003, "NAV_FENCE_CIRCLE_INCLUSION"},
+                                                  {5004, "NAV_FENCE_CIRCLE_EXCLUSION"},
+                                                  {5100, "NAV_RALLY_POINT"}};
 
 /// Frames of items, by MAVLink's common.xml.
 constexpr int kGlobal = 0, kLocalNed = 1, kRelative = 3, kLocalEnu = 4, kGlobalInt = 5, kRelativeInt = 6;

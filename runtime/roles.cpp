@@ -71,14 +71,14 @@ const std::vector<ProcessRole>& process_roles() {
                 kPlanTiming, kSearchView)},
       {"tern-detector", Role::Vehicle, names_of(kDepthImage, kPointCloud, kSemanticMap, kObstacleSightings)},
       {"tern-estimator", Role::Vehicle, names_of(kImu, kFeatureTracks, kPositionFix, kPredictions, kOdometry)},
-      {"tern-mapper", Role::Mapper, names_of(kSemanticMap, kUavState, kPointCloud, kDepthImage, kMapFile)},
+      {"tern-mapper", Role::Mapper, names_of(kSemanticMap, kUavState, kPointCloud, kDepthImage, kMapFile, kFences)},
       {"tern-logger", Role::Observer, {}},
       {"tern-monitor", Role::Observer,
        names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kSemanticMap,
                 kObstacleObservations, kPredictions, kObstacleTruth, kVehicleTruth, kOdometry, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
       {"tern-mission", Role::Operator,
-       names_of(kGoal, kSpeedLimit, kUavState, kVehicleStatus, kSemanticMap, kPredictions)},
+       names_of(kGoal, kSpeedLimit, kFences, kUavState, kVehicleStatus, kSemanticMap, kPredictions)},
   };
   return processes;
 }

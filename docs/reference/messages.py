@@ -112,7 +112,7 @@ def channels():
     silences = {name: int(us.replace("'", "")) / 1e6 for name, us in
                 re.findall(r"Duration (k\w*Silence)\{([\d']+)\}", header + text_of("core/world/voxel_map.h"))}
     entry = re.compile(r'((?:^///.*\n)+)inline constexpr Channel<(\w+)> (k\w+)\{\s*"(\w+)", Scope::(\w+), "([^"]*)", '
-                       r'(kLatched|kStream), (?:Role::\w+|kAnyone),\s*(\w+)\};', re.M)
+                       r'(kLatched|kStream),\s+(?:Role::\w+|kAnyone),\s*(\w+)\};', re.M)
     senders, receivers = users_of_channels()
     for comment, value, constant, name, scope, rate, latched, silence in entry.findall(header):
         yield {

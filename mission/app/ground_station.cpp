@@ -50,6 +50,10 @@ GroundStation::GroundStation(std::unique_ptr<mavlink::Link> link, std::uint8_t s
 
 void GroundStation::send(const mavlink::Frame& frame) { link_->send(mavlink::to_bytes(frame)); }
 
+void GroundStation::say(const std::string& text) {
+  for (const mavlink::Frame& frame : server_.say(text)) send(frame);
+}
+
 void GroundStation::set_mission(const std::vector<Step>& steps, const Site& site) {
   server_.set_items(items_of(steps, site));
   seqs_ = seqs_of(steps);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/world/vehicle.h"
@@ -31,6 +33,10 @@ class GroundStation {
   void set_mission(const std::vector<Step>& steps, const Site& site);
   /// Sets the mission that was uploaded: its items are known.
   void set_uploaded(const std::vector<Step>& steps);
+  /// Sets the fences that a download returns.
+  void set_fences(std::vector<mavlink::MissionItemInt> items) { server_.set_fences(std::move(items)); }
+  /// Sends a text.
+  void say(const std::string& text);
 
  private:
   void send(const mavlink::Frame& frame);

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
     setup.config = config.progress;
     setup.folder = folder;
     setup.system = config.system;
+    setup.fence_uploads = config.fence_uploads;
     if (!url.empty()) setup.link = tern::value_or_throw(tern::mavlink::open_link(url), "--connect ");
     if (url.empty() || !config.file.empty()) setup.mission = load_mission(context.scenario, config);
     return std::make_unique<MissionNode>(context.bus, std::move(setup));

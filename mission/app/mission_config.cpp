@@ -9,6 +9,9 @@ MissionConfig read_mission_config(ConfigSection section) {
   config.system = static_cast<std::uint8_t>(
       section.integer("system", config.system, 1, 255,
                       "MAVLink system id of the vehicle, for the ground station that uploads missions"));
+  config.fence_uploads = section.flag("fence_uploads", config.fence_uploads,
+                                      "a ground station may upload fences: tern-mapper publishes no map before it has "
+                                      "heard FENCES of tern-mission");
   section.read(config.progress);
   return config;
 }

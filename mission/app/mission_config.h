@@ -12,6 +12,7 @@ namespace tern::mission {
 struct MissionConfig {
   std::string file;  ///< as written in the scenario; "": none
   std::uint8_t system = 1;
+  bool fence_uploads = false;
   ProgressConfig progress;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/world/uploaded_fences.h"
 #include "messages/batching.h"
 #include "mission/check.h"
 #include "runtime/log.h"
@@ -15,6 +16,8 @@ namespace {
 constexpr Duration kGoalPeriod{1'000'000};
 /// The name of an uploaded mission, in messages and records.
 constexpr const char* kUploaded = "uploaded mission";
+constexpr const char* kIsFlown = "a mission is being flown: let it end first";
+constexpr const char* kNoMap = "tern-mission has no map yet: upload again when the mapper has sent it";
 
 }  // namespace
 
@@ -28,11 +31,15 @@ MissionNode::MissionNode(Bus& bus, MissionSetup setup)
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus_.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
+  if (setup_.fence_uploads) fences_ = std::make_unique<FenceKeeper>(bus_, record_, setup_.site, setup_.uav);
   if (setup_.link) {
     MissionTaker taker{[this](const std::vector<Item>& items) { return take_upload(items); },
-                       [this](Order order) { return obey(order); }};
+                       [this](Order order) { return obey(order); }, [this] { fences_->await(); },
+                       [this](const std::vector<mavlink::MissionItemInt>& items) { return take_fences(items); },
+                       fences_ ? "" : "fences cannot be uploaded: set mission.fence_uploads in the scenario"};
     station_ =
         std::make_unique<GroundStation>(std::move(setup_.link), setup_.system, setup_.site.frame, std::move(taker));
+    if (fences_) station_->set_fences(fences_->items());
   }
   is_ordered_ = setup_.mission.has_value();
   if (!setup_.mission) {
@@ -61,11 +68,25 @@ void MissionNode::set_mission(Mission mission) {
 
 /// Only the first map is judged: a later one is the planner's affair. So a restarted process judges none.
 void MissionNode::on_map(const MapChunk& chunk) {
-  if (map_) return;
+  const bool is_first = !map_;
+  if (!is_first && (!fences_ || is_flown())) return;
   const auto complete = assembler_.add(chunk);
   if (!complete || !*complete) return;
   map_ = assembler_.take();
-  const std::string blocked = progress_ ? steps_blocked(progress_->mission(), *map_, setup_.uav.body) : "";
+  if (fences_) fences_->receive(*map_);
+  if (is_first && progress_) judge_steps();
+}
+
+/// Uploaded fences may be replaced before the start: then, they judge the steps of an upload.
+std::string MissionNode::why_blocked(const Mission& mission, bool is_uploaded) const {
+  if (!fences_ || !is_uploaded) return steps_blocked(mission, *map_, setup_.uav.body);
+  VoxelMap map = *map_;
+  free_uploaded_fences(map);
+  return steps_blocked(mission, map, setup_.uav.body);
+}
+
+void MissionNode::judge_steps() {
+  const std::string blocked = why_blocked(progress_->mission(), is_uploaded_);
   if (blocked.empty()) return;
   if (record_.read(progress_->mission())) return log::warn("{}: {}", progress_->mission().file, blocked);
   log::error("{}: {}; move it, or correct map and fences", progress_->mission().file, blocked);
@@ -96,9 +117,8 @@ void MissionNode::on_predictions(const TrackSet& batch) {
 }
 
 std::string MissionNode::take_upload(const std::vector<Item>& items) {
-  const bool is_flown = has_started_ && progress_->stand() != Stand::Done && progress_->stand() != Stand::Failed;
-  if (is_flown) return "a mission is being flown: let it end first";
-  if (!map_) return "tern-mission has no map yet: upload again when the mapper has sent it";
+  if (is_flown()) return kIsFlown;
+  if (!map_) return kNoMap;
   if (items.empty()) {
     forget_mission();
     return "";
@@ -106,9 +126,8 @@ std::string MissionNode::take_upload(const std::vector<Item>& items) {
   auto steps = steps_of(items, setup_.site);
   if (!steps) return steps.error().message;
   Mission mission{kUploaded, std::move(*steps)};
-  for (const std::string& why :
-       {steps_outside(mission, setup_.uav.flight_box, setup_.uav.body), steps_too_fast(mission, setup_.uav.limits),
-        steps_blocked(mission, *map_, setup_.uav.body)}) {
+  for (const std::string& why : {steps_outside(mission, setup_.uav.flight_box, setup_.uav.body),
+                                 steps_too_fast(mission, setup_.uav.limits), why_blocked(mission, true)}) {
     if (!why.empty()) return why;
   }
   record_.forget();
@@ -118,6 +137,22 @@ std::string MissionNode::take_upload(const std::vector<Item>& items) {
   is_ordered_ = false;
   is_fresh_ = is_uploaded_ = true;
   return "";
+}
+
+bool MissionNode::is_flown() const {
+  return has_started_ && progress_->stand() != Stand::Done && progress_->stand() != Stand::Failed;
+}
+
+std::string MissionNode::take_fences(const std::vector<mavlink::MissionItemInt>& items) {
+  if (is_flown()) return fences_->refuse(kIsFlown);
+  if (!map_) return fences_->refuse(kNoMap);
+  return fences_->take(items, *map_, progress_ ? &progress_->mission() : nullptr, place());
+}
+
+std::string MissionNode::why_no_start() const {
+  if (!fences_) return "";
+  const std::string why = fences_->not_in_force();
+  return why.empty() && progress_ ? fences_->why_beyond(&progress_->mission(), place()) : why;
 }
 
 void MissionNode::forget_mission() {
@@ -133,6 +168,7 @@ std::string MissionNode::obey(Order order) {
   switch (order) {
     case Order::Start:
       if (has_started_) return "the mission has already been started";
+      if (std::string why = why_no_start(); !why.empty()) return why;
       is_ordered_ = true;
       return "";
     case Order::Pause: return has_started_ && progress_->pause(now) ? "" : "the mission is not being flown";
@@ -145,6 +181,7 @@ UTime MissionNode::next_wakeup() const {
   if (exit_code_) return kNever;
   UTime next = has_started_ ? progress_->next_wakeup() : std::max(listens_until_, next_hold_);
   if (station_) next = std::min(next, station_->next_wakeup());
+  if (fences_) next = std::min(next, fences_->next_wakeup());
   return next;
 }
 
@@ -154,7 +191,12 @@ void MissionNode::step(UTime now) {
     station_->step(now);  // may replace or end progress_
     station_->report(now, progress_ ? &*progress_ : nullptr, state_ ? &*state_ : nullptr);
   }
-  if (!has_started_ && map_ && state_ && now >= listens_until_) is_ordered_ ? start(now) : hold(now);
+  if (fences_) {
+    for (const std::string& text : fences_->step(now)) {
+      if (station_) station_->say(text);
+    }
+  }
+  if (!has_started_ && map_ && state_ && now >= listens_until_) begin(now);
   if (!has_started_) {
     if (now >= listens_until_ && !map_) listens_until_ = now + kListen;
     return;
@@ -164,6 +206,14 @@ void MissionNode::step(UTime now) {
     if (const auto& limit = progress_->speed_limit()) bus_.publish(channels::kSpeedLimit, *limit);
     bus_.publish(channels::kGoal, *goal);
   }
+}
+
+/// A restarted process that waits for its fences leaves the vehicle the goal that it has.
+void MissionNode::begin(UTime now) {
+  if (!is_ordered_) return hold(now);
+  if (!fences_ || fences_->not_in_force().empty()) return start(now);
+  if (!heard_) return hold(now);
+  next_hold_ = now + kGoalPeriod;
 }
 
 void MissionNode::start(UTime now) {
@@ -202,6 +252,9 @@ void MissionNode::note() {
 NodeHealth MissionNode::health() const {
   if (!map_) return {ProcessState::Waiting, "a semantic map"};
   if (!state_) return {ProcessState::Waiting, "UAV_STATE"};
+  if (fences_ && !is_flown()) {
+    if (std::string why = fences_->not_in_force(); !why.empty()) return {ProcessState::Waiting, why};
+  }
   if (!progress_) return {ProcessState::Ready, "waits for the ground station to upload a mission"};
   if (!is_ordered_) return {ProcessState::Ready, "waits for the ground station to start the mission"};
   if (!has_started_) return {ProcessState::Waiting, "the vehicle's goal, if an earlier process sent one"};

@@ -8,6 +8,7 @@
 
 #include "core/scenario/scenario.h"
 #include "core/world/voxel_map.h"
+#include "mission/app/fence_keeper.h"
 #include "mission/app/ground_station.h"
 #include "mission/app/mission_config.h"
 #include "mission/app/mission_record.h"
@@ -29,10 +30,11 @@ struct MissionSetup {
   std::string folder;                   ///< for the record; "": none is written
   std::unique_ptr<mavlink::Link> link;  ///< to a ground station; null: none
   std::uint8_t system = 1;              ///< MAVLink's id of the vehicle
+  bool fence_uploads = false;           ///< fences are uploaded as well, and the mapper waits for them
 };
 
 /// Connects Progress to the bus. Receives UAV_STATE, VEHICLE_STATUS, GOAL, SEMANTIC_MAP and PREDICTIONS; publishes
-/// GOAL and SPEED_LIMIT.
+/// GOAL and SPEED_LIMIT, and with fence_uploads FENCES (FenceKeeper).
 ///
 /// 1. It waits for a map, and refuses steps in occupied voxels. A file's mission then ends the process with
 ///    kExitCannotFly, before any goal is sent. An upload is refused, and one from before a restart is forgotten.
@@ -40,6 +42,8 @@ struct MissionSetup {
 /// 3. Without a mission it sends a goal to hold, until one is uploaded and started.
 /// 4. It sends goals until the mission is done or has failed. HEARTBEAT then says Finished or Failed, and the last goal
 ///    is repeated until the process is ended.
+///
+/// Fences are not changed while a mission is flown, and no mission begins before they are in force.
 ///
 /// A restarted process flies an uploaded mission only if it was started, and none that has ended.
 class MissionNode final : public Node {
@@ -59,8 +63,18 @@ class MissionNode final : public Node {
   /// Sets the mission to be flown. It waits for start().
   void set_mission(Mission mission);
   [[nodiscard]] std::string take_upload(const std::vector<Item>& items);
+  [[nodiscard]] std::string take_fences(const std::vector<mavlink::MissionItemInt>& items);
   [[nodiscard]] std::string obey(Order order);
+  /// Why no mission may begin; "" if one may.
+  [[nodiscard]] std::string why_no_start() const;
+  [[nodiscard]] bool is_flown() const;
+  [[nodiscard]] const Vec3& place() const { return state_ ? state_->motion.p : setup_.site.home; }
   void forget_mission();
+  /// Which steps are in obstacles; "" if none is.
+  [[nodiscard]] std::string why_blocked(const Mission& mission, bool is_uploaded) const;
+  /// Judges the steps by the first map.
+  void judge_steps();
+  void begin(UTime now);
   void start(UTime now);
   void hold(UTime now);
   void note();
@@ -69,9 +83,10 @@ class MissionNode final : public Node {
   MissionSetup setup_;
   std::optional<Progress> progress_;  ///< of the mission; nullopt: none is there
   MissionRecord record_;
+  std::unique_ptr<FenceKeeper> fences_;  ///< null: without fence_uploads
   std::unique_ptr<GroundStation> station_;
   MapAssembler assembler_;
-  std::optional<VoxelMap> map_;
+  std::optional<VoxelMap> map_;  ///< the first one; with fence_uploads the newest before a mission begins
   BatchCollector<TrackSet> batches_;
   std::optional<UavState> state_;
   bool following_ = false;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.h"
@@ -135,6 +138,50 @@ std::optional<std::vector<Step>> MissionRecord::read_upload() const try {
   return steps;
 } catch (const Json::exception&) {
   return std::nullopt;
+}
+
+Result<void> MissionRecord::write_fences(const std::vector<mavlink::MissionItemInt>& items) const {
+  if (folder_.empty()) {
+    if (items.empty()) return {};
+    return fail("fences are taken only with --record FOLDER, so that a restart has them");
+  }
+  Json json = Json::array();
+  for (const mavlink::MissionItemInt& item : items) {
+    Json params = Json::array();
+    for (const float param : item.param) params.push_back(std::isfinite(param) ? Json(param) : Json());
+    json.push_back({{"command", item.command},
+                    {"frame", item.frame},
+                    {"params", params},
+                    {"x", item.x},
+                    {"y", item.y},
+                    {"z", std::isfinite(item.z) ? Json(item.z) : Json()}});
+  }
+  if (!replace(folder_ + "/fences.json", to_text(json))) return fail("the fences cannot be recorded");
+  return {};
+}
+
+Result<std::vector<mavlink::MissionItemInt>> MissionRecord::read_fences() const try {
+  const std::string path = folder_ + "/fences.json";
+  std::vector<mavlink::MissionItemInt> items;
+  if (folder_.empty() || !std::filesystem::exists(path)) return items;
+  const Json json = Json::parse(read_text(path));
+  const auto number = [](const Json& value) {
+    return value.is_null() ? std::numeric_limits<float>::quiet_NaN() : value.get<float>();
+  };
+  for (const Json& each : json) {
+    mavlink::MissionItemInt item;
+    item.seq = static_cast<std::uint16_t>(items.size());
+    item.command = each.at("command").get<std::uint16_t>();
+    item.frame = each.at("frame").get<std::uint8_t>();
+    for (std::size_t k = 0; k < item.param.size(); ++k) item.param[k] = number(each.at("params").at(k));
+    item.x = each.at("x").get<std::int32_t>();
+    item.y = each.at("y").get<std::int32_t>();
+    item.z = number(each.at("z"));
+    items.push_back(item);
+  }
+  return items;
+} catch (const Json::exception& e) {
+  return fail(e.what());
 }
 
 }  // namespace tern::mission

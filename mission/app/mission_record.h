@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/base/time.h"
+#include "mavlink/messages.h"
 #include "mission/progress.h"
 
 namespace tern::mission {
@@ -21,7 +23,11 @@ class MissionRecord {
   /// Writes the steps of an uploaded mission, and reads them back after a restart. They are in uploaded.json.
   [[nodiscard]] bool write_upload(const std::vector<Step>& steps) const;
   [[nodiscard]] std::optional<std::vector<Step>> read_upload() const;
-  /// Removes these files: an uploaded mission was cleared or replaced.
+  /// Writes the items of uploaded fences to fences.json. @return an Error without a folder, or if that is impossible
+  [[nodiscard]] Result<void> write_fences(const std::vector<mavlink::MissionItemInt>& items) const;
+  /// Reads them back; empty if there is no such file. @return an Error if it is damaged
+  [[nodiscard]] Result<std::vector<mavlink::MissionItemInt>> read_fences() const;
+  /// Removes the files of a mission: an uploaded one was cleared or replaced.
   void forget() const;
   /// Reads mission.json; nullopt if there is none, or if it belongs to another mission.
   [[nodiscard]] std::optional<Remembered> read(const Mission& mission) const;

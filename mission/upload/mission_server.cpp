@@ -10,9 +10,9 @@ namespace {
 
 using namespace mavlink;
 
-/// MAV_MISSION_TYPE
-constexpr std::uint8_t kMissionType = 0, kAllTypes = 255;
-constexpr std::uint16_t kPauseContinue = 193, kMissionStart = 300;
+constexpr std::uint16_t kPauseContinue = 193, kMissionStart = 300, kRequestMessage = 512;
+/// MAV_PROTOCOL_CAPABILITY
+constexpr std::uint64_t kMissionInt = 4, kMavlink2 = 8192, kMissionFence = 16384;
 /// MAV_RESULT
 constexpr std::uint8_t kResultAccepted = 0, kResultDenied = 2, kResultUnsupported = 3;
 constexpr std::uint8_t kFrameEnu = 4, kFrameRelativeInt = 6, kFrameMission = 2;
@@ -114,25 +114,8 @@ std::vector<Frame> MissionServer::receive(const Frame& frame, UTime now) {
       handle<MissionItemInt>(frame, [&](const auto& m) { on_item(m, peer, now, out); }) ||
       handle<MissionRequestInt>(frame, [&](const auto& m) { send_item(m.seq, m.mission_type, peer, out); }) ||
       handle<MissionRequest>(frame, [&](const auto& m) { send_item(m.seq, m.mission_type, peer, out); }) ||
-      handle<MissionRequestList>(frame,
-                                 [&](const auto& m) {
-                                   if (m.mission_type != kMissionType) {
-                                     return acknowledge(kUnsupported, m.mission_type, peer, out);
-                                   }
-                                   out.push_back(frame_of(MissionCount{static_cast<std::uint16_t>(items_.size()),
-                                                                       peer.system, peer.component, kMissionType, 0}));
-                                 }) ||
-      handle<MissionClearAll>(frame,
-                              [&](const auto& m) {
-                                const bool clears = m.mission_type == kMissionType || m.mission_type == kAllTypes;
-                                const std::string why = clears ? taker_.take({}) : "";
-                                if (why.empty() && clears) {
-                                  items_.clear();
-                                  ended_.reset();
-                                }
-                                if (!why.empty()) say(why, out);
-                                acknowledge(why.empty() ? kAccepted : kDenied, m.mission_type, peer, out);
-                              }) ||
+      handle<MissionRequestList>(frame, [&](const auto& m) { send_count(m.mission_type, peer, out); }) ||
+      handle<MissionClearAll>(frame, [&](const auto& m) { on_clear(m.mission_type, peer, out); }) ||
       handle<MissionAck>(frame,
                          [&](const auto& m) {
                            if (upload_ && upload_->peer == peer && m.type == kCancelled) upload_.reset();
@@ -141,22 +124,52 @@ std::vector<Frame> MissionServer::receive(const Frame& frame, UTime now) {
   return out;
 }
 
-void MissionServer::on_count(const MissionCount& count, Address peer, UTime now, Frames& out) {
-  if (count.mission_type != kMissionType) {
-    if (count.count > 0) say("fences and rally points cannot be uploaded; state fences in the scenario", out);
-    return acknowledge(count.count > 0 ? kUnsupported : kAccepted, count.mission_type, peer, out);
+bool MissionServer::is_supported(std::uint8_t type) const {
+  return type == kMissionType || (type == kFenceType && taker_.no_fences.empty());
+}
+
+std::string MissionServer::hand_over(std::uint8_t type, std::vector<MissionItemInt> wire) {
+  std::string why;
+  if (type == kFenceType) {
+    why = taker_.take_fences(wire);
+  } else {
+    std::vector<Item> items;
+    for (const MissionItemInt& item : wire) items.push_back(item_of(item));
+    why = taker_.take(items);
   }
-  if (upload_ && upload_->peer != peer) return acknowledge(kDenied, kMissionType, peer, out);
-  if (count.count > kMaxUploadedItems) return acknowledge(kNoSpace, kMissionType, peer, out);
-  upload_ = Upload{peer, count.count, {}, now, 0};
+  if (why.empty()) stored_[type] = std::move(wire);
+  return why;
+}
+
+void MissionServer::on_clear(std::uint8_t type, Address peer, Frames& out) {
+  std::string why;
+  for (const std::uint8_t each : {kMissionType, kFenceType}) {
+    if (!why.empty() || !is_supported(each) || (type != each && type != kAllTypes)) continue;
+    why = hand_over(each, {});
+    if (why.empty() && ended_ && ended_->type == each) ended_.reset();
+  }
+  if (!why.empty()) say(why, out);
+  acknowledge(why.empty() ? kAccepted : kDenied, type, peer, out);
+}
+
+void MissionServer::on_count(const MissionCount& count, Address peer, UTime now, Frames& out) {
+  const std::uint8_t type = count.mission_type;
+  if (!is_supported(type)) {
+    if (count.count > 0) say(type == kFenceType ? taker_.no_fences : "rally points cannot be uploaded", out);
+    return acknowledge(count.count > 0 ? kUnsupported : kAccepted, type, peer, out);
+  }
+  if (upload_ && upload_->peer != peer) return acknowledge(kDenied, type, peer, out);
+  if (type == kFenceType) taker_.await_fences();
+  if (count.count > kMaxUploadedItems) return acknowledge(kNoSpace, type, peer, out);
+  upload_ = Upload{peer, type, count.count, {}, now, 0};
   count.count == 0 ? finish(peer, out) : request(now, out);
 }
 
 void MissionServer::on_item(const MissionItemInt& item, Address peer, UTime now, Frames& out) {
-  if (item.mission_type != kMissionType) return;
-  const bool is_last_again = !upload_ && ended_ && ended_->peer == peer && item.seq + std::size_t{1} == ended_->count;
-  if (is_last_again) return acknowledge(ended_->result, kMissionType, peer, out);
-  if (!upload_ || upload_->peer != peer) return;
+  const bool is_last_again = !upload_ && ended_ && ended_->peer == peer && ended_->type == item.mission_type &&
+                             item.seq + std::size_t{1} == ended_->count;
+  if (is_last_again) return acknowledge(ended_->result, ended_->type, peer, out);
+  if (!upload_ || upload_->peer != peer || upload_->type != item.mission_type) return;
   if (item.seq == upload_->items.size()) {
     upload_->items.push_back(item);
     upload_->tries = 0;
@@ -165,28 +178,25 @@ void MissionServer::on_item(const MissionItemInt& item, Address peer, UTime now,
 }
 
 void MissionServer::finish(Address peer, Frames& out) {
-  std::vector<Item> items;
-  for (const MissionItemInt& item : upload_->items) items.push_back(item_of(item));
-  const std::string why = taker_.take(items);
-  ended_ = Ended{peer, upload_->count, why.empty() ? kAccepted : kInvalid};
-  if (why.empty()) items_ = std::move(upload_->items);
-  upload_.reset();
+  Upload upload = *std::exchange(upload_, std::nullopt);
+  const std::string why = hand_over(upload.type, std::move(upload.items));
+  ended_ = Ended{peer, upload.type, upload.count, why.empty() ? kAccepted : kInvalid};
   if (!why.empty()) say(why, out);
-  acknowledge(ended_->result, kMissionType, peer, out);
+  acknowledge(ended_->result, upload.type, peer, out);
 }
 
 void MissionServer::request(UTime now, Frames& out) {
   upload_->asked = now;
   ++upload_->tries;
   out.push_back(frame_of(MissionRequestInt{static_cast<std::uint16_t>(upload_->items.size()), upload_->peer.system,
-                                           upload_->peer.component, kMissionType}));
+                                           upload_->peer.component, upload_->type}));
 }
 
 std::vector<Frame> MissionServer::step(UTime now) {
   Frames out;
   if (!upload_ || now - upload_->asked < kRequestAgain) return out;
   if (upload_->tries >= kTries) {
-    acknowledge(kCancelled, kMissionType, upload_->peer, out);
+    acknowledge(kCancelled, upload_->type, upload_->peer, out);
     upload_.reset();
     return out;
   }
@@ -194,10 +204,17 @@ std::vector<Frame> MissionServer::step(UTime now) {
   return out;
 }
 
+void MissionServer::send_count(std::uint8_t type, Address peer, Frames& out) {
+  if (!is_supported(type)) return acknowledge(kUnsupported, type, peer, out);
+  out.push_back(
+      frame_of(MissionCount{static_cast<std::uint16_t>(stored_[type].size()), peer.system, peer.component, type, 0}));
+}
+
 void MissionServer::send_item(std::uint16_t seq, std::uint8_t type, Address peer, Frames& out) {
-  if (type != kMissionType) return acknowledge(kUnsupported, type, peer, out);
-  if (seq >= items_.size()) return acknowledge(kInvalidSequence, type, peer, out);
-  MissionItemInt item = items_[seq];
+  if (!is_supported(type)) return acknowledge(kUnsupported, type, peer, out);
+  if (seq >= stored_[type].size()) return acknowledge(kInvalidSequence, type, peer, out);
+  MissionItemInt item = stored_[type][seq];
+  item.mission_type = type;
   item.target_system = peer.system;
   item.target_component = peer.component;
   out.push_back(frame_of(item));
@@ -219,11 +236,27 @@ void MissionServer::on_command(const CommandLong& command, Address peer, Frames&
     ack.result = why.empty() ? kResultAccepted : kResultDenied;
     if (!why.empty()) say(why, out);
   }
+  const bool asks_for_abilities =
+      command.command == kRequestMessage && command.param[0] == static_cast<float>(AutopilotVersion::kId);
+  if (asks_for_abilities) ack.result = kResultAccepted;
   out.push_back(frame_of(ack));
+  if (asks_for_abilities) out.push_back(frame_of(abilities()));
+}
+
+AutopilotVersion MissionServer::abilities() const {
+  AutopilotVersion version;
+  version.capabilities = kMissionInt | kMavlink2 | (is_supported(kFenceType) ? kMissionFence : 0);
+  return version;
 }
 
 void MissionServer::acknowledge(std::uint8_t result, std::uint8_t type, Address peer, Frames& out) {
   out.push_back(frame_of(MissionAck{peer.system, peer.component, result, type, 0}));
+}
+
+std::vector<Frame> MissionServer::say(const std::string& text) {
+  Frames out;
+  say(text, out);
+  return out;
 }
 
 void MissionServer::say(const std::string& text, Frames& out) {

@@ -1,6 +1,7 @@
 // The vehicle's side of MAVLink's mission protocol: https://mavlink.io/en/services/mission.html
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -22,6 +23,12 @@ struct MissionTaker {
   std::function<std::string(const std::vector<Item>&)> take;
   /// Carries an order out. @return "" or why it is refused
   std::function<std::string(Order)> obey;
+  /// An upload of fences begins: until take_fences() accepts them, the fences that the pilot wants are not in force.
+  std::function<void()> await_fences = {};
+  /// Takes uploaded fences in place of those before. An empty list takes them away. @return "" or why they are refused
+  std::function<std::string(const std::vector<mavlink::MissionItemInt>&)> take_fences = {};
+  /// Why fences cannot be uploaded at all; "": they can.
+  std::string no_fences = "fences cannot be uploaded";
 };
 
 /// Serves uploads, downloads and orders of ground stations. Pure: frames in, frames out.
@@ -37,13 +44,17 @@ struct MissionTaker {
 /// | MISSION_CLEAR_ALL                      | MISSION_ACK                                             |
 /// | COMMAND_LONG 300 MISSION_START         | COMMAND_ACK                                             |
 /// | COMMAND_LONG 193 DO_PAUSE_CONTINUE     | COMMAND_ACK                                             |
+/// | COMMAND_LONG 512 REQUEST_MESSAGE 148   | COMMAND_ACK, AUTOPILOT_VERSION                          |
 /// | COMMAND_LONG, another command          | COMMAND_ACK: unsupported                                |
 ///
 /// - A mission that is refused is named in STATUSTEXT, in parts of 50 bytes, before its MISSION_ACK.
 /// - An expected item is requested again after kRequestAgain, and after kTries the upload is dropped.
 /// - A second ground station's upload is denied while one is under way.
-/// - MISSION_START starts the whole mission; a part of it is denied. MISSION_CLEAR_ALL of all types clears the mission.
-/// - Fences and rally points are not supported here: an upload of any, and a download, is refused.
+/// - MISSION_START starts the whole mission; a part of it is denied.
+/// - Missions and fences (MAV_MISSION_TYPE 0 and 1) are uploaded, downloaded and cleared in the same way.
+///   MISSION_CLEAR_ALL of all types clears both.
+/// - AUTOPILOT_VERSION says whether fences are taken: QGroundControl uploads them only if it says so.
+/// - Rally points are not supported: an upload of any, and a download, is refused. So are fences without a taker.
 class MissionServer {
  public:
   MissionServer(mavlink::Address self, MissionTaker taker) : self_(self), taker_(std::move(taker)) {}
@@ -53,8 +64,13 @@ class MissionServer {
   /// Returns requests that are due again.
   std::vector<mavlink::Frame> step(UTime now);
   /// Sets the items that a download returns.
-  void set_items(std::vector<mavlink::MissionItemInt> items) { items_ = std::move(items); }
-  [[nodiscard]] const std::vector<mavlink::MissionItemInt>& items() const { return items_; }
+  void set_items(std::vector<mavlink::MissionItemInt> items) { stored_[0] = std::move(items); }
+  /// Sets the fences that a download returns.
+  void set_fences(std::vector<mavlink::MissionItemInt> items) { stored_[1] = std::move(items); }
+  [[nodiscard]] const std::vector<mavlink::MissionItemInt>& items() const { return stored_[0]; }
+  [[nodiscard]] const std::vector<mavlink::MissionItemInt>& fences() const { return stored_[1]; }
+  /// Returns a text as STATUSTEXT, in parts of 50 bytes.
+  std::vector<mavlink::Frame> say(const std::string& text);
   /// A message as a frame from this vehicle.
   template <class M>
   mavlink::Frame frame_of(const M& message) {
@@ -64,6 +80,7 @@ class MissionServer {
  private:
   struct Upload {
     mavlink::Address peer;
+    std::uint8_t type = 0;
     std::size_t count = 0;
     std::vector<mavlink::MissionItemInt> items;
     UTime asked;
@@ -72,6 +89,7 @@ class MissionServer {
   /// An upload that has ended.
   struct Ended {
     mavlink::Address peer;
+    std::uint8_t type = 0;
     std::size_t count = 0;
     std::uint8_t result = 0;
   };
@@ -81,19 +99,25 @@ class MissionServer {
   bool handle(const mavlink::Frame& frame, const Handle& with);
   void on_count(const mavlink::MissionCount& count, mavlink::Address peer, UTime now, Frames& out);
   void on_item(const mavlink::MissionItemInt& item, mavlink::Address peer, UTime now, Frames& out);
+  void on_clear(std::uint8_t type, mavlink::Address peer, Frames& out);
   void on_command(const mavlink::CommandLong& command, mavlink::Address peer, Frames& out);
+  [[nodiscard]] mavlink::AutopilotVersion abilities() const;
+  void send_count(std::uint8_t type, mavlink::Address peer, Frames& out);
   void send_item(std::uint16_t seq, std::uint8_t type, mavlink::Address peer, Frames& out);
   void finish(mavlink::Address peer, Frames& out);
   void request(UTime now, Frames& out);
-  [[nodiscard]] float last_item() const { return static_cast<float>(items_.size()) - 1.0F; }
+  /// Hands items of a type to the taker, and stores them if it takes them. @return "" or why they are refused
+  std::string hand_over(std::uint8_t type, std::vector<mavlink::MissionItemInt> items);
+  [[nodiscard]] bool is_supported(std::uint8_t type) const;
+  [[nodiscard]] float last_item() const { return static_cast<float>(items().size()) - 1.0F; }
   void acknowledge(std::uint8_t result, std::uint8_t type, mavlink::Address peer, Frames& out);
   void say(const std::string& text, Frames& out);
 
   mavlink::Address self_;
   MissionTaker taker_;
   std::optional<Upload> upload_;
-  std::optional<Ended> ended_;  ///< the newest one
-  std::vector<mavlink::MissionItemInt> items_;
+  std::optional<Ended> ended_;                                  ///< the newest one
+  std::array<std::vector<mavlink::MissionItemInt>, 2> stored_;  ///< missions and fences, by MAV_MISSION_TYPE
   std::uint8_t sequence_ = 0;
   std::uint16_t text_id_ = 0;
 };
@@ -111,6 +135,8 @@ std::vector<std::uint16_t> seqs_of(const std::vector<Step>& steps);
 inline constexpr Duration kRequestAgain{1'500'000};
 inline constexpr int kTries = 5;
 inline constexpr std::size_t kMaxUploadedItems = 2'000;
+/// MAV_MISSION_TYPE
+inline constexpr std::uint8_t kMissionType = 0, kFenceType = 1, kAllTypes = 255;
 
 /// MAV_MISSION_RESULT.
 inline constexpr std::uint8_t kAccepted = 0, kUnsupported = 3, kNoSpace = 4, kInvalid = 5, kInvalidSequence = 13,

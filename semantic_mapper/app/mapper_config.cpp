@@ -185,6 +185,7 @@ MapperConfig read_mapper_config(ConfigSection section) {
 MapperConfig read_mapper_config(ConfigDocument& document) {
   MapperConfig config = read_mapper_config(document.root().section("mapper"));
   config.mission_file = document.root().section("mission").text("file", "");
+  config.fence_uploads = document.root().section("mission").flag("fence_uploads", false);
   return config;
 }
 

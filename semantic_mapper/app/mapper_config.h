@@ -47,13 +47,14 @@ struct MapperConfig {
   bool has_own_classes = false;                             ///< false: `classes` are the defaults
   std::vector<CloudSource> sources;
   LiveConfig live;
-  std::string mission_file;  ///< mission.file of the scenario: its fences are in force; "": none
+  std::string mission_file;    ///< mission.file of the scenario: its fences are in force; "": none
+  bool fence_uploads = false;  ///< mission.fence_uploads: FENCES are in force as well
 };
 
 /// Reads the section and checks that it has no further keys. The keys are listed in docs/reference/keys.md.
 /// @throws ConfigError
 MapperConfig read_mapper_config(ConfigSection section);
-/// Reads the section `mapper`, and `mission.file`. @throws ConfigError
+/// Reads the section `mapper`, and `mission.file` and `mission.fence_uploads`. @throws ConfigError
 MapperConfig read_mapper_config(ConfigDocument& document);
 
 }  // namespace tern

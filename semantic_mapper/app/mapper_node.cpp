@@ -12,6 +12,7 @@
 #include "core/world/map_progress.h"
 #include "messages/codec.h"
 #include "runtime/log.h"
+#include "semantic_mapper/app/fence_uploads.h"
 #include "semantic_mapper/app/live_updates.h"
 #include "semantic_mapper/app/load_map.h"
 
@@ -48,13 +49,18 @@ std::array<std::int64_t, kVoxelLabels> count_labels(const VoxelMap& map) {
 
 }  // namespace
 
-MapperNode::MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSetup>& live, std::string warnings)
+MapperNode::MapperNode(Bus& bus, const VoxelMap& map, const std::optional<LiveSetup>& live,
+                       const std::optional<Box>& fenced, std::string warnings)
     : bus_(bus),
       warnings_(std::move(warnings)),
       rotation_began_(bus.clock().now()),
       next_(rotation_began_),
       earliest_(rotation_began_) {
   if (live) live_ = std::make_unique<LiveUpdates>(bus, map, *live);
+  if (fenced) {
+    fences_ = std::make_unique<FenceUploads>(bus, map.grid, *fenced);
+    unfenced_ = map;
+  }
   publish(map);
   if (!rotation_text_.empty()) log::info("{}", rotation_text_);
 }
@@ -74,20 +80,31 @@ void MapperNode::publish(const VoxelMap& map) {
 }
 
 UTime MapperNode::next_wakeup() const {
+  if (fences_ && !fences_->has_taken()) return live_ ? live_->next_scan() : kNever;
   if (!live_) return next_;
   if (!live_->has_begun()) return live_->next_scan();
   const UTime next = std::min(next_, live_->next_scan());
   return at_ == 0 ? std::min(next, live_->next_map()) : next;
 }
 
+void MapperNode::take_changes(UTime now) {
+  std::optional<VoxelMap> map = live_ ? live_->take_new(now) : std::nullopt;
+  if (!fences_) {
+    if (map) publish(*map);
+    return;
+  }
+  const bool is_new = map || fences_->has_changed();
+  if (map) unfenced_ = std::move(*map);
+  if (is_new) publish(fences_->onto(unfenced_));
+}
+
 void MapperNode::step(UTime now) {
   if (live_) {
     live_->add_scans(now);
     if (!live_->has_begun()) return;
-    if (at_ == 0) {
-      if (const auto map = live_->take_new(now)) publish(*map);
-    }
   }
+  if (fences_ && !fences_->has_taken()) return;
+  if (at_ == 0) take_changes(now);
   if (now < next_) return;
   if (at_ == 0) rotation_began_ = now;
   const MapChunk& chunk = chunks_[at_];
@@ -100,11 +117,17 @@ void MapperNode::step(UTime now) {
 NodeHealth MapperNode::health() const {
   const std::string waiting_for = live_ ? live_->waiting_for() : "";
   if (!waiting_for.empty()) return {ProcessState::Waiting, waiting_for};
-  std::string words = live_ ? live_->trouble() : "";
-  for (const std::string& more : {rotation_text_, warnings_}) {
+  const std::string fences = fences_ ? fences_->text() : "";
+  if (!fences.empty() && !fences_->has_taken()) return {ProcessState::Waiting, fences};
+  std::string words = fences;
+  for (const std::string& more : {live_ ? live_->trouble() : "", rotation_text_, warnings_}) {
     if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
   }
   return {ProcessState::Ready, words};
+}
+
+std::optional<Box> fenced_by_uploads(const Scenario& scenario, const MapperConfig& config) {
+  return config.fence_uploads ? std::optional(scenario.uav.flight_box) : std::nullopt;
 }
 
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
@@ -118,7 +141,7 @@ std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
             count[3], count[4], count[0]);
   try {
     return std::make_unique<MapperNode>(context.bus, map, live_setup(context.scenario, config),
-                                        warnings_of(loaded.remarks));
+                                        fenced_by_uploads(context.scenario, config), warnings_of(loaded.remarks));
   } catch (const std::invalid_argument& e) {
     throw ConfigError(fmt::format("{}: mapper: {}", context.scenario.file, e.what()));
   }

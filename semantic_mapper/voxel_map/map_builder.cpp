@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/world/fence_voxels.h"
 #include "semantic_mapper/voxel_map/cloud_voxels.h"
-#include "semantic_mapper/voxel_map/fence_voxels.h"
 #include "semantic_mapper/voxel_map/octomap_voxels.h"
 #include "semantic_mapper/voxel_map/standing_place.h"
 #include "semantic_mapper/voxel_map/voxel_painter.h"

@@ -159,6 +159,7 @@ TEST(FlightProcesses, AMissionSendsTheGoals) {
   EXPECT_THAT(words_of("tern-mission"), ::testing::IsSupersetOf({"--record", "r"}));
   options.mission = "udpout://127.0.0.1:14550";
   EXPECT_THAT(words_of("tern-mission"), ::testing::IsSupersetOf({"--connect", "udpout://127.0.0.1:14550"}));
+  EXPECT_THAT(words_of("tern-mapper"), ::testing::Contains("mission.fence_uploads=true"));
 }
 
 TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {

@@ -2,7 +2,7 @@
 // the fields in wire order, arrays one element after the other, text as one word per byte.
 import mavlink from 'node-mavlink';
 
-const ids = [0, 1, 20, 22, 23, 31, 32, 49, 76, 77, 84, 111, 115, 230, 245, 253, 331, 33, 40, 42, 43, 44, 45, 46, 47, 51, 73];
+const ids = [0, 1, 20, 22, 23, 31, 32, 49, 76, 77, 84, 111, 115, 230, 245, 253, 331, 33, 40, 42, 43, 44, 45, 46, 47, 51, 73, 148];
 const types = {};
 for (const part of [mavlink.minimal, mavlink.standard, mavlink.common]) {
   for (const type of Object.values(part)) if (type?.MSG_ID !== undefined) types[type.MSG_ID] = type;

@@ -85,6 +85,13 @@ struct Words {
   }
   void add(const Goal& g) { (*this)(g.header, g.id, g.mode, g.position); }
   void add(const SpeedLimit& s) { (*this)(s.header, s.goal_id, s.v_max); }
+  void add(const Fence& f) {
+    const auto* circle = std::get_if<FenceCircle>(&f.shape);
+    (*this)(f.is_inclusion, circle != nullptr);
+    if (circle != nullptr) return (*this)(circle->centre, circle->radius);
+    add(std::get<FencePolygon>(f.shape).corners);
+  }
+  void add(const FenceSet& s) { (*this)(s.header, s.fences); }
   void add(const ObservationSet& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.detections);
   }
@@ -195,6 +202,7 @@ template std::vector<std::uint64_t> words_of(const Odometry&);
 template std::vector<std::uint64_t> words_of(const FlightResult&);
 template std::vector<std::uint64_t> words_of(const MapFile&);
 template std::vector<std::uint64_t> words_of(const SpeedLimit&);
+template std::vector<std::uint64_t> words_of(const FenceSet&);
 
 template <>
 std::vector<std::int32_t> array_sizes(const UavState&) {
@@ -207,6 +215,14 @@ std::vector<std::int32_t> array_sizes(const Goal&) {
 template <>
 std::vector<std::int32_t> array_sizes(const SpeedLimit&) {
   return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const FenceSet& set) {
+  std::int32_t corners = 0;
+  for (const Fence& fence : set.fences) {
+    if (const auto* polygon = std::get_if<FencePolygon>(&fence.shape)) corners += size_of(polygon->corners);
+  }
+  return {size_of(set.fences), corners};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const PlanTiming&) {

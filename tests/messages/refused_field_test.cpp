@@ -77,7 +77,7 @@ TEST(RefusedField, NamesTheTrackOfAPiece) {
 TEST(RefusedField, NamesABrokenRule) {
   ObservationSet set = two_detections();
   for (Detection& detection : set.detections) detection.track_id = 7;
-  EXPECT_EQ(refused(set), "two detections have one track_id");
+  EXPECT_EQ(refused(set), "two detections have the track_id 7");
 }
 
 TEST(RefusedField, IsEmptyForBytesOfAnotherForm) {

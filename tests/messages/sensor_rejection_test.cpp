@@ -42,6 +42,23 @@ TEST(Rejection, OfMapFile) {
   EXPECT_EQ(after<MapFile>([](auto& f) { f.part = f.parts; }), "Inconsistent");
 }
 
+TEST(Rejection, OfFenceSet) {
+  const auto with = [](const auto& shape) {
+    return after<FenceSet>([&](FenceSet& set) {
+      set.fences.resize(1);
+      set.fences[0].shape = shape;
+    });
+  };
+  const Eigen::Vector2d a(0, 0), b(1, 0), nowhere(kNaN, 0);
+  EXPECT_EQ(with(FenceCircle{a, 1.0}), "accepted");
+  EXPECT_EQ(with(FenceCircle{a, 0.0}), "Number");
+  EXPECT_EQ(with(FenceCircle{a, kNaN}), "Number");
+  EXPECT_EQ(with(FenceCircle{nowhere, 1.0}), "Number");
+  EXPECT_EQ(with(FencePolygon{{a, b}}), "Number");
+  EXPECT_EQ(with(FencePolygon{{a, b, nowhere}}), "Number");
+  EXPECT_EQ(with(FencePolygon{{a, b, 2e6 * b}}), "Number");
+}
+
 TEST(Rejection, OfImuBatch) {
   EXPECT_EQ(after<ImuBatch>([](auto& b) { b.samples[1].at = b.samples[0].at; }), "Time");
   EXPECT_EQ(after<ImuBatch>([](auto& b) { b.samples[1].specific_force.x() = kNaN; }), "Number");

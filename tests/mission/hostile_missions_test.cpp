@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "messages/codec.h"
 #include "mission/readers/mission_file.h"
+#include "mission/upload/fence_items.h"
 #include "mission/upload/mission_server.h"
 #include "semantic_mapper/sources/fence_file.h"
 #include "tests/mission/some_site.h"
@@ -158,6 +160,57 @@ TEST(HostileMissions, MutatedUploadsGiveAMissionOrAReason) {
     const std::size_t spoiled = below(count);
     for (std::uint16_t seq = 0; seq < count; ++seq) {
       mavlink::Frame frame = mavlink::to_frame(legal_item(seq, count), {255, 190}, 0);
+      for (std::size_t n = seq == spoiled ? 1 + below(3) : 0; n > 0; --n) {
+        frame.payload[below(frame.payload.size())] = static_cast<std::uint8_t>(below(256));
+      }
+      ASSERT_LE(server.receive(frame, UTime{2}).size(), 12u);
+    }
+  }
+  EXPECT_GT(taken, kMutations / 20);
+  EXPECT_GT(refused, kMutations / 20);
+}
+
+/// Items of legal fences: a circle, a triangle, a return point, a circle.
+mavlink::MissionItemInt legal_fence(std::uint16_t seq) {
+  constexpr std::uint16_t kCommands[] = {5003, 5002, 5002, 5002, 5000, 5004};
+  mavlink::MissionItemInt item;
+  item.seq = seq;
+  item.command = kCommands[seq];
+  item.frame = 0;
+  item.param = {item.command == 5002 ? 3.0F : 20.0F, 0.0F, 0.0F, 0.0F};
+  item.x = 473'980'000 + 1000 * (seq % 2);
+  item.y = 85'456'000 + 1000 * seq;
+  item.target_system = 7;
+  item.target_component = 1;
+  item.mission_type = kFenceType;
+  return item;
+}
+
+TEST(HostileMissions, MutatedFencesGiveFencesThatAMessageHoldsOrAReason) {
+  Rng rng(5);
+  const Site site = testing::some_site();
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng.uniform(0, static_cast<double>(n))); };
+  int taken = 0, refused = 0;
+  const auto take = [&](const std::vector<mavlink::MissionItemInt>& wire) -> std::string {
+    std::vector<Item> items;
+    for (const auto& item : wire) items.push_back(item_of(item));
+    const auto fences = fences_of(items, site);
+    fences ? ++taken : ++refused;
+    if (!fences) {
+      EXPECT_LT(fences.error().message.size(), 400u);
+      return fences.error().message;
+    }
+    EXPECT_TRUE(decode<FenceSet>(encode(FenceSet{{{1, 1}, UTime{1}}, *fences})).has_value());
+    return "";
+  };
+  for (int k = 0; k < kMutations && !HasFailure(); ++k) {
+    MissionServer server(
+        {7, 1}, {[](const auto&) { return std::string(); }, [](Order) { return std::string(); }, [] {}, take, ""});
+    constexpr std::uint16_t kCount = 6;
+    server.receive(mavlink::to_frame(mavlink::MissionCount{kCount, 7, 1, kFenceType, 0}, {255, 190}, 0), UTime{1});
+    const std::size_t spoiled = below(kCount);
+    for (std::uint16_t seq = 0; seq < kCount; ++seq) {
+      mavlink::Frame frame = mavlink::to_frame(legal_fence(seq), {255, 190}, 0);
       for (std::size_t n = seq == spoiled ? 1 + below(3) : 0; n > 0; --n) {
         frame.payload[below(frame.payload.size())] = static_cast<std::uint8_t>(below(256));
       }

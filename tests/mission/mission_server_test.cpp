@@ -41,7 +41,13 @@ class Server : public ::testing::Test {
                            [this](Order order) {
                              orders_.push_back(order);
                              return refusal_;
-                           }}) {}
+                           },
+                           [this] { ++awaited_; },
+                           [this](const std::vector<MissionItemInt>& items) {
+                             fences_ = items;
+                             return refusal_;
+                           },
+                           ""}) {}
 
   template <class M>
   std::vector<Frame> send(const M& message, Address from = kStation) {
@@ -64,7 +70,20 @@ class Server : public ::testing::Test {
     for (int k = 0; k < items; ++k) send(waypoint(static_cast<std::uint16_t>(k), 47.398 + 1e-4 * k, 8.5456, 10.0F));
   }
 
+  void upload_fences(int items) {
+    count(static_cast<std::uint16_t>(items), kFenceType);
+    for (int k = 0; k < items; ++k) send(fence(static_cast<std::uint16_t>(k)));
+  }
+  static MissionItemInt fence(std::uint16_t seq) {
+    MissionItemInt item = waypoint(seq, 47.398, 8.5456, 0.0F);
+    item.command = 5004;
+    item.mission_type = kFenceType;
+    return item;
+  }
+
   std::vector<Item> taken_;
+  std::vector<MissionItemInt> fences_;
+  int awaited_ = 0;
   std::vector<Order> orders_;
   std::string refusal_;
   UTime now_{1'000'000};
@@ -132,27 +151,87 @@ TEST_F(Server, ReturnsWhatWasUploaded) {
   EXPECT_TRUE(taken_.empty());
 }
 
-TEST_F(Server, NamesThatFencesAndRallyPointsAreNotTaken) {
-  for (const std::uint8_t type : {std::uint8_t{1}, std::uint8_t{2}}) {
-    const auto answers = count(2, type);
-    EXPECT_EQ(result(answers), kUnsupported);
-    EXPECT_EQ(from_frame<MissionAck>(answers.back())->mission_type, type);
-    EXPECT_THAT(string_of(from_frame<StatusText>(answers.front())->text), ::testing::HasSubstr("fences and rally"));
-    EXPECT_EQ(only<MissionAck>(send(MissionRequestList{kVehicle.system, kVehicle.component, type})).type, kUnsupported);
-    EXPECT_EQ(only<MissionAck>(send(MissionRequestInt{0, kVehicle.system, kVehicle.component, type})).type,
-              kUnsupported);
-  }
-  EXPECT_TRUE(taken_.empty());
+TEST_F(Server, NamesThatRallyPointsAreNotTaken) {
+  const auto answers = count(2, 2);
+  EXPECT_EQ(result(answers), kUnsupported);
+  EXPECT_EQ(from_frame<MissionAck>(answers.back())->mission_type, 2);
+  EXPECT_THAT(string_of(from_frame<StatusText>(answers.front())->text), ::testing::HasSubstr("rally points cannot"));
+  EXPECT_EQ(only<MissionAck>(send(MissionRequestList{kVehicle.system, kVehicle.component, 2})).type, kUnsupported);
+  EXPECT_EQ(only<MissionAck>(send(MissionRequestInt{0, kVehicle.system, kVehicle.component, 2})).type, kUnsupported);
+  EXPECT_EQ(result(count(0, 2)), kAccepted);
+}
+
+TEST_F(Server, NamesWhyFencesAreNotTakenWithoutATaker) {
+  server_ = MissionServer(kVehicle, {[](const auto&) { return ""; }, [](Order) { return ""; }});
+  const auto answers = count(2, kFenceType);
+  EXPECT_EQ(result(answers), kUnsupported);
+  EXPECT_EQ(string_of(from_frame<StatusText>(answers.front())->text), "fences cannot be uploaded");
+  EXPECT_EQ(only<MissionAck>(send(MissionRequestList{kVehicle.system, kVehicle.component, 1})).type, kUnsupported);
+  EXPECT_EQ(result(count(0, kFenceType)), kAccepted);
+  EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 255})), kAccepted);
+}
+
+TEST_F(Server, TakesReturnsAndClearsFencesBesideTheMission) {
+  upload(2);
+  EXPECT_EQ(awaited_, 0);
+  const auto request = only<MissionRequestInt>(count(2, kFenceType));
+  EXPECT_EQ(request.mission_type, kFenceType);
+  EXPECT_EQ(awaited_, 1);
+  EXPECT_TRUE(send(waypoint(0, 47.398, 8.5456, 10.0F)).empty()) << "of another type";
+  EXPECT_EQ(only<MissionRequestInt>(send(fence(0))).mission_type, kFenceType);
+  const auto ack = only<MissionAck>(send(fence(1)));
+  EXPECT_EQ(ack.type, kAccepted);
+  EXPECT_EQ(ack.mission_type, kFenceType);
+  EXPECT_EQ(fences_.size(), 2u);
+  EXPECT_EQ(only<MissionAck>(send(fence(1))).type, kAccepted) << "its acknowledgement was lost";
+  EXPECT_EQ(taken_.size(), 2u);
+  EXPECT_EQ(only<MissionCount>(send(MissionRequestList{kVehicle.system, kVehicle.component, 1})).count, 2);
+  const auto item = only<MissionItemInt>(send(MissionRequestInt{1, kVehicle.system, kVehicle.component, 1}));
+  EXPECT_EQ(item.command, 5004);
+  EXPECT_EQ(item.mission_type, kFenceType);
+  EXPECT_EQ(result(send(MissionRequestInt{2, kVehicle.system, kVehicle.component, 1})), kInvalidSequence);
+  EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 0})), kAccepted);
+  EXPECT_EQ(server_.fences().size(), 2u);
+  EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 1})), kAccepted);
+  EXPECT_TRUE(fences_.empty());
+  EXPECT_TRUE(server_.fences().empty());
+}
+
+TEST_F(Server, KeepsTheFencesBeforeIfOthersAreRefused) {
+  upload_fences(2);
+  refusal_ = "fence item 1, MAV_CMD_NAV_WAYPOINT (16): is no fence";
+  count(1, kFenceType);
+  const auto answers = send(fence(0));
+  EXPECT_EQ(result(answers), kInvalid);
+  EXPECT_GE(answers.size(), 2u);
+  EXPECT_EQ(server_.fences().size(), 2u);
+  EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 1})), kDenied);
+  EXPECT_EQ(server_.fences().size(), 2u);
+}
+
+TEST_F(Server, SaysThatItTakesFences) {
+  CommandLong command;
+  command.target_system = kVehicle.system;
+  command.command = 512;
+  command.param[0] = 148.0F;
+  const auto answers = send(command);
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_EQ(from_frame<CommandAck>(answers[0])->result, 0);
+  EXPECT_EQ(from_frame<AutopilotVersion>(answers[1])->capabilities, 4u + 8192u + 16384u);
+  command.param[0] = 300.0F;
+  EXPECT_EQ(only<CommandAck>(send(command)).result, 3);
 }
 
 TEST_F(Server, ClearsTheMissionIfAllTypesAreCleared) {
   upload(2);
   EXPECT_EQ(taken_.size(), 2u);
-  EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 1})), kAccepted);
+  upload_fences(1);
+  EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 2})), kAccepted);
   EXPECT_EQ(server_.items().size(), 2u);
   EXPECT_EQ(result(send(MissionClearAll{kVehicle.system, kVehicle.component, 255})), kAccepted);
   EXPECT_TRUE(taken_.empty());
   EXPECT_TRUE(server_.items().empty());
+  EXPECT_TRUE(server_.fences().empty());
 }
 
 TEST_F(Server, DeniesAPartOfAMission) {
@@ -172,14 +251,14 @@ TEST_F(Server, DeniesAPartOfAMission) {
   EXPECT_EQ(start(0, 0), 0);
 }
 
-TEST_F(Server, RefusesFencesOtherStationsAndOtherVehicles) {
-  EXPECT_EQ(result(count(2, 1)), kUnsupported);
-  EXPECT_EQ(result(count(0, 1)), kAccepted);
+TEST_F(Server, RefusesOtherStationsOtherVehiclesAndTooManyItems) {
   count(2);
   EXPECT_EQ(result(count(2, 0, kOther)), kDenied);
+  EXPECT_EQ(result(count(2, 1, kOther)), kDenied);
   EXPECT_TRUE(send(waypoint(0, 47.399, 8.5456, 12.0F), kOther).empty());
   EXPECT_TRUE(send(MissionCount{2, 9, 1, 0, 0}).empty());
   EXPECT_EQ(result(count(2'001, 0)), kNoSpace);
+  EXPECT_EQ(result(count(2'001, 1)), kNoSpace);
 }
 
 TEST_F(Server, PassesOrdersOn) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# node_mavlink.sh BIN: a ground station of npm's node-mavlink uploads missions to tern-mission over UDP. Fails without node
+# node_mavlink.sh BIN: a ground station of npm's node-mavlink uploads missions and fences to tern-mission over UDP. Fails without node
 # or npm, so that the check cannot be skipped (launch_scripts/test.sh installs them).
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -16,7 +16,7 @@ if [[ ${2:-} != inside ]]; then
   exit
 fi
 scenario=$here/../../docs/examples/fenced_field.yaml
-"$1/tern-mapper" --config "$scenario" &
-"$1/tern-mission" --config "$scenario" --connect "udpout://127.0.0.1:$PORT" &
+"$1/tern-mapper" --config "$scenario" --set mission.fence_uploads=true &
+"$1/tern-mission" --config "$scenario" --set mission.fence_uploads=true --record "$3" --connect "udpout://127.0.0.1:$PORT" &
 trap 'kill $(jobs -p)' EXIT
 node "$3/ground_station.mjs" "$PORT"

@@ -1,5 +1,5 @@
 // The space that geofences forbid, as voxels.
-#include "semantic_mapper/voxel_map/fence_voxels.h"
+#include "core/world/fence_voxels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "core/world/fence_set.h"
 #include "core/world/inertial.h"
 #include "core/world/map_file.h"
 #include "core/world/plan_heading.h"
@@ -52,6 +53,26 @@ MapFile random_message(Rng& rng, Fill fill) {
   file.bytes.resize(static_cast<std::size_t>(count(rng, fill, 0, kMaxMapFileBytesPerMessage)));
   for (std::int8_t& byte : file.bytes) byte = static_cast<std::int8_t>(random_integer(rng, -128, 127));
   return file;
+}
+
+template <>
+FenceSet random_message(Rng& rng, Fill fill) {
+  const auto point = [&rng] { return Eigen::Vector2d(position(rng).head<2>()); };
+  FenceSet set;
+  set.header = header(rng);
+  set.fences.resize(static_cast<std::size_t>(count(rng, fill, 0, kMaxFencesPerMessage)));
+  int corners = set.fences.empty() ? 0 : kMaxFenceCornersPerMessage;
+  for (Fence& fence : set.fences) {
+    fence.is_inclusion = flag(rng);
+    fence.shape = FenceCircle{point(), positive(rng, kMaxCoordinate)};
+    if (corners < 3 || (fill == Fill::Mixed && flag(rng))) continue;
+    FencePolygon polygon;
+    const int n = fill == Fill::Largest ? corners : random_integer(rng, 3, std::min(corners, 20));
+    for (int k = 0; k < n; ++k) polygon.corners.push_back(point());
+    corners -= n;
+    fence.shape = polygon;
+  }
+  return set;
 }
 
 template <>

@@ -9,8 +9,10 @@
 
 #include "campaign/virtual_system.h"
 #include "messages/channels.h"
+#include "mission/app/mission_node.h"
 #include "runtime/config.h"
 #include "simulator/app/simulator_node.h"
+#include "tests/mission/station_link.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/watched_flight.h"
 
@@ -216,6 +218,87 @@ TEST_F(MissionFlight, SlowsDownForASlowerLegWithoutAStop) {
     const bool is_slow_leg = state.motion.p.y() > 1.0;
     ASSERT_LT(state.motion.v.head<2>().norm(), is_slow_leg ? 1.0 * 1.23 + 0.05 : 1e3);
   }
+}
+
+/// A flight of a mission that a ground station uploads, with fences.
+class UploadedFlight : public MissionFlight {
+ protected:
+  /// The field without obstacles and fences of its own; a tern-mission that the test is the ground station of.
+  void load_field() {
+    load("square.csv", {"world.fences=[]", "world.obstacles=[]", "mission.fence_uploads=true"});
+    system_->stop("tern-mission");
+    start_mission();
+    system_->runner().observer().subscribe(channels::kSemanticMap, [this](const MapChunk&) { ++chunks_; });
+  }
+  void start_mission() {
+    system_->runner().start("tern-mission", [&](Bus& bus) {
+      mission::MissionSetup setup;
+      setup.site.home = system_->scenario().uav.start;
+      setup.uav = system_->scenario().uav;
+      setup.folder = folder_.file("");
+      setup.link = std::make_unique<mission::testing::StationLink>(cable_, sent_);
+      setup.fence_uploads = true;
+      return std::make_unique<mission::MissionNode>(bus, std::move(setup));
+    });
+  }
+  /// Uploads a mission straight through a circle to stay out of, inside a field to stay in, and starts it.
+  void order_flight() {
+    using namespace mission;
+    const std::vector<Step> steps{{"there", 1, Action::Stop, Vec3(20, 0, 2), 0.0, 0.0, 0}};
+    mission::testing::upload(cable_, items_of(steps, Site{}), kMissionType);
+    auto fences = mission::testing::rectangle(mission::testing::kPolygonInclusion, -3, -3, 23, 13);
+    fences.push_back(mission::testing::fence_item(mission::testing::kCircleExclusion, 2.0F, 10, 0));
+    mission::testing::upload(cable_, fences, kFenceType);
+    fly(5.0);
+    mavlink::CommandLong start;
+    start.command = 300;
+    start.target_system = start.target_component = 1;
+    mission::testing::send(cable_, start);
+  }
+  void expect_fences_kept() const {
+    const double body = system_->scenario().uav.body.radius;
+    for (const UavState& state : flown_) {
+      const Vec3& p = state.motion.p;
+      ASSERT_GE((p.head<2>() - Eigen::Vector2d(10, 0)).norm(), 2.0 + body) << p.transpose();
+      ASSERT_GE(p.head<2>().minCoeff(), -3.0 + body) << p.transpose();
+      ASSERT_LE(p.x(), 23.0 - body) << p.transpose();
+      ASSERT_LE(p.y(), 13.0 - body) << p.transpose();
+    }
+  }
+
+  mission::testing::Cable cable_;
+  std::vector<mavlink::Frame> sent_;
+  int chunks_ = 0;
+};
+
+TEST_F(UploadedFlight, FliesAroundAnUploadedFenceInItsStraightWay) {
+  load_field();
+  fly(2.0);
+  order_flight();
+  fly(120.0);
+  ASSERT_TRUE(result().has_value()) << said_;
+  expect_reached(*result());
+  expect_fences_kept();
+}
+
+TEST_F(UploadedFlight, KeepsItsFencesIfMapperAndMissionAreRestartedInFlight) {
+  load_field();
+  fly(2.0);
+  order_flight();
+  fly(1.5);
+  ASSERT_FALSE(result().has_value());
+  system_->stop("tern-mission");
+  system_->stop("tern-mapper");
+  chunks_ = 0;
+  system_->start("tern-mapper");
+  fly(2.0);
+  EXPECT_EQ(chunks_, 0) << "a map without the fences is never published";
+  start_mission();
+  fly(120.0);
+  ASSERT_TRUE(result().has_value()) << said_;
+  expect_reached(*result());
+  expect_fences_kept();
+  EXPECT_GT(chunks_, 0);
 }
 
 }  // namespace

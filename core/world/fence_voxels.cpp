@@ -1,4 +1,4 @@
-#include "semantic_mapper/voxel_map/fence_voxels.h"
+#include "core/world/fence_voxels.h"
 
 #include <algorithm>
 #include <cmath>
