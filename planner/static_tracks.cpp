@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "core/base/digest.h"
 
@@ -53,11 +54,40 @@ bool StaticTracks::add(const TrackSet& set) {
   if (!changed) return false;
   obstacles_ = {};
   for (const auto& [id, known] : by_id_) obstacles_.fixed.push_back(known.box);
+  obstacles_.resting = wide_boxes();
+  const std::uint64_t before = std::exchange(digest_, digest_of(obstacles_.all()));
+  return digest_ != before;
+}
+
+/// Boxes that touch are joined from the first one of each group on.
+std::vector<Box> StaticTracks::wide_boxes() const {
+  std::vector<const Resting*> rested;
   for (const auto& [id, resting] : resting_) {
-    if (resting.box) obstacles_.resting.push_back(*resting.box);
+    if (resting.box) rested.push_back(&resting);
   }
-  digest_ = digest_of(obstacles_.all());
-  return true;
+  std::vector<std::size_t> group(rested.size(), rested.size());
+  std::vector<Box> extents;  // of each group
+  for (std::size_t first = 0; first < rested.size(); ++first) {
+    if (group[first] != rested.size()) continue;
+    group[first] = extents.size();
+    Box extent = rested[first]->bare;
+    for (std::vector<std::size_t> next{first}; !next.empty();) {
+      const std::size_t one = next.back();
+      next.pop_back();
+      for (std::size_t other = 0; other < rested.size(); ++other) {
+        if (group[other] != rested.size() || !rested[one]->box->intersects(*rested[other]->box)) continue;
+        group[other] = extents.size();
+        extent.extend(rested[other]->bare);
+        next.push_back(other);
+      }
+    }
+    extents.push_back(extent);
+  }
+  std::vector<Box> wide;
+  for (std::size_t k = 0; k < rested.size(); ++k) {
+    if (extents[group[k]].sizes().head<2>().maxCoeff() >= kWide) wide.push_back(*rested[k]->box);
+  }
+  return wide;
 }
 
 bool StaticTracks::add_static(const TrackSet& set) {
@@ -101,11 +131,12 @@ bool StaticTracks::add_resting(const TrackSet& set) {
 }
 
 bool StaticTracks::take_box(const Track& track, Resting& resting) {
-  const Box hull = box_around(track.motion.sample(track.motion.start).p, track.half_extents + track.alpha.front());
-  if (!resting.box && 2.0 * track.half_extents.head<2>().maxCoeff() < kWide) return false;
+  const Vec3 p = track.motion.sample(track.motion.start).p;
+  const Box hull = box_around(p, track.half_extents + track.alpha.front());
   const bool is_much_smaller = resting.box && (resting.box->sizes() - hull.sizes()).maxCoeff() > kMuchSmaller;
   if (resting.box && resting.box->contains(hull) && !is_much_smaller) return false;
   resting.box = rounded_out(hull, kBoxStep);
+  resting.bare = box_around(p, track.half_extents);
   return true;
 }
 

@@ -19,8 +19,10 @@ Box rounded_out(const Box& box, double step, double tolerance = 0.0);
 
 /// The boxes around which a path to the goal leads, W, not inflated by the body.
 struct PathObstacles {
-  std::vector<Box> fixed;    ///< of static tracks
-  std::vector<Box> resting;  ///< of wide tracks that rest: they may move, so they count only if they leave a way
+  std::vector<Box> fixed;  ///< of static tracks
+  /// Of tracks that rest and are wide, alone or with those that they touch. They may move, so they count only if they
+  /// leave a way.
+  std::vector<Box> resting;
 
   [[nodiscard]] std::vector<Box> all() const {
     std::vector<Box> boxes = fixed;
@@ -39,11 +41,13 @@ struct PathObstacles {
 /// | a set comes from another predictor (a new sender epoch)   | all tracks are forgotten            |
 ///
 /// An estimated track is *at rest* if it is predicted to stay within kRestingWay for a second. The search of a plan
-/// finds ways around obstacles that are smaller than its reach; around wider ones, only a path to the goal does.
+/// finds ways around obstacles that are smaller than its reach; around wider ones, only a path to the goal does. Tracks
+/// whose boxes touch are one obstacle, such as the three walls of a dead end. If it is at least kWide, it is one of
+/// obstacles().
 ///
 /// | event                                                            | effect                                    |
 /// |------------------------------------------------------------------|-------------------------------------------|
-/// | a track of at least kWide is at rest for kRestedFor              | its box with α is kept                    |
+/// | a track is at rest for kRestedFor                                | its box with α is kept                    |
 /// | its newest box leaves the kept one, or is smaller by kMuchSmaller | the box is replaced by the newest         |
 /// | the track moves, or both faces of an axis do by kMovedAway       | it is forgotten, and may come to rest anew |
 /// | sets omit it for kOmittedFor                                     | it is forgotten                           |
@@ -53,7 +57,7 @@ class StaticTracks {
  public:
   static constexpr int kRememberedAfter = 3;
   static constexpr Duration kRestedFor{2'000'000}, kOmittedFor{5'000'000};
-  /// The least horizontal size of a resting track that is kept, m; more than the usual r = 4 m.
+  /// The least horizontal size of resting tracks around which a path leads, m; more than the usual r = 4 m.
   static constexpr double kWide = 5.0;
   static constexpr double kRestingWay = 0.1, kMovedAway = 0.5, kMuchSmaller = 1.0;  ///< m
   /// Boxes of resting tracks are rounded outwards to multiples of this, m. So they change seldom, and paths with them.
@@ -79,10 +83,12 @@ class StaticTracks {
     UTime since, seen;
     Box place;               // where it came to rest
     std::optional<Box> box;  // once it has rested for kRestedFor
+    Box bare;                // the same without α
   };
   bool add_static(const TrackSet& set);
   bool add_resting(const TrackSet& set);
   static bool take_box(const Track& track, Resting& resting);
+  [[nodiscard]] std::vector<Box> wide_boxes() const;
 
   std::map<std::int64_t, Known> by_id_;
   std::map<std::int64_t, Resting> resting_;

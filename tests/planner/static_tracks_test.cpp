@@ -104,6 +104,31 @@ TEST(StaticTracks, ANarrowRestingTrackIsLeftToTheSearch) {
   EXPECT_TRUE(statics.obstacles().resting.empty());
 }
 
+/// A set of three walls that touch, the last one 1.3 m wide, and a post apart from them.
+TrackSet dead_end(double at_s, double gap = 0.0) {
+  TrackSet set = estimated(at_s, 1.3);
+  const auto add = [&](std::int64_t id, const Vec3& p, const Vec3& half) {
+    Track track = set.tracks[0];
+    track.id = id;
+    track.half_extents = half;
+    track.motion.pieces[0].coefficients.col(3) = p;
+    set.tracks.push_back(track);
+  };
+  add(5, Vec3(5.2, 1.0, 0), Vec3(2.6, 0.1, 1.5));
+  add(6, Vec3(5.2, -1.0 - gap, 0), Vec3(2.0, 0.1, 1.5));
+  add(7, Vec3(5.2, 4.0, 0), Vec3(0.4, 0.4, 1.5));
+  return set;
+}
+
+TEST(StaticTracks, NarrowTracksThatTouchAWideOneCloseItsPocket) {
+  StaticTracks statics;
+  for (int k = 0; k < 50; ++k) statics.add(dead_end(1.0 + 0.05 * k));
+  EXPECT_EQ(statics.obstacles().resting.size(), 3U) << "the post is left to the search";
+  StaticTracks apart;
+  for (int k = 0; k < 50; ++k) apart.add(dead_end(1.0 + 0.05 * k, 1.5));
+  EXPECT_EQ(apart.obstacles().resting.size(), 2U) << "the third wall is 4 m wide and touches none";
+}
+
 TEST(StaticTracks, ARestingTrackThatSetsOmitIsForgottenAfterAWhile) {
   StaticTracks statics;
   watch(statics, 1.0, 4.0, 6.0);
