@@ -118,7 +118,7 @@ bool StaticTracks::add_resting(const TrackSet& set) {
       resting_.erase(known);
     }
     if (!is_at_rest(track)) continue;
-    Resting& resting = resting_.try_emplace(track.id, Resting{set.made_at, {}, place, {}}).first->second;
+    Resting& resting = resting_.try_emplace(track.id, Resting{set.made_at, {}, place, {}, place}).first->second;
     resting.seen = set.made_at;
     if (set.made_at - resting.since >= kRestedFor) changed = take_box(track, resting) || changed;
   }
