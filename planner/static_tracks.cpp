@@ -118,8 +118,10 @@ bool StaticTracks::add_resting(const TrackSet& set) {
       resting_.erase(known);
     }
     if (!is_at_rest(track)) continue;
-    Resting& resting = resting_.try_emplace(track.id, Resting{set.made_at, {}, place, {}, place}).first->second;
+    const Vec3& alpha = track.alpha.front();
+    Resting& resting = resting_.try_emplace(track.id, Resting{set.made_at, {}, place, alpha, {}, place}).first->second;
     resting.seen = set.made_at;
+    resting.alpha = resting.alpha.cwiseMin(alpha);
     if (set.made_at - resting.since >= kRestedFor) changed = take_box(track, resting) || changed;
   }
   std::erase_if(resting_, [&](const auto& entry) {
@@ -132,7 +134,7 @@ bool StaticTracks::add_resting(const TrackSet& set) {
 
 bool StaticTracks::take_box(const Track& track, Resting& resting) {
   const Vec3 p = track.motion.sample(track.motion.start).p;
-  const Box hull = box_around(p, track.half_extents + track.alpha.front());
+  const Box hull = box_around(p, track.half_extents + resting.alpha);
   const bool is_much_smaller = resting.box && (resting.box->sizes() - hull.sizes()).maxCoeff() > kMuchSmaller;
   if (resting.box && resting.box->contains(hull) && !is_much_smaller) return false;
   resting.box = rounded_out(hull, kBoxStep);

@@ -47,10 +47,13 @@ struct PathObstacles {
 ///
 /// | event                                                            | effect                                    |
 /// |------------------------------------------------------------------|-------------------------------------------|
-/// | a track is at rest for kRestedFor                                | its box with α is kept                    |
+/// | a track is at rest for kRestedFor                                | its box with the least α so far is kept   |
 /// | its newest box leaves the kept one, or is smaller by kMuchSmaller | the box is replaced by the newest         |
 /// | the track moves, or both faces of an axis do by kMovedAway       | it is forgotten, and may come to rest anew |
 /// | sets omit it for kOmittedFor                                     | it is forgotten                           |
+///
+/// α grows while a track is out of sight, though nothing more is known of it. So a path that leads out of a pocket
+/// would close behind the vehicle; that is why the least α counts here. The check of a plan takes the whole α.
 ///
 /// A false track that appears once thus blocks a path only until the next set. The state depends on the sets alone.
 class StaticTracks {
@@ -82,6 +85,7 @@ class StaticTracks {
   struct Resting {
     UTime since, seen;
     Box place;               // where it came to rest
+    Vec3 alpha;              // the least so far
     std::optional<Box> box;  // once it has rested for kRestedFor
     Box bare;                // the same without α
   };

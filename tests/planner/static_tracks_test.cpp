@@ -104,6 +104,18 @@ TEST(StaticTracks, ANarrowRestingTrackIsLeftToTheSearch) {
   EXPECT_TRUE(statics.obstacles().resting.empty());
 }
 
+TEST(StaticTracks, TheBoxOfAWallThatGoesOutOfSightDoesNotGrow) {
+  StaticTracks statics;
+  watch(statics, 1.0, 4.0, 6.0);
+  const Box seen = statics.obstacles().resting.at(0);
+  for (int k = 0; k < 20; ++k) {
+    TrackSet set = estimated(4.0 + 0.05 * k, 6.0);
+    set.tracks[0].alpha[0] += Vec3::Constant(0.1 * k);
+    statics.add(set);
+  }
+  EXPECT_EQ(statics.obstacles().resting.at(0).max(), seen.max());
+}
+
 /// A set of three walls that touch, the last one 1.3 m wide, and a post apart from them.
 TrackSet dead_end(double at_s, double gap = 0.0) {
   TrackSet set = estimated(at_s, 1.3);
