@@ -153,7 +153,8 @@ std::string to_text(const FlightSummary& s) {
   std::string text = headline(s);
   text += "\n" + wrapped("  why           ", s.explanation.sentence);
   if (s.recording && !s.recording->empty()) text += wrapped("  recording     ", "incomplete: " + *s.recording);
-  for (const auto& [process, words] : s.said) text += wrapped("  said          ", process + ": " + words);
+  for (const auto& [process, words] : s.said)
+    text += wrapped("  said          ", fmt::format("{}: {}", process, words));
   text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));
   if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);

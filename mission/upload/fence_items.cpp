@@ -77,7 +77,7 @@ class FenceReader {
       Fence fence;
       fence.is_inclusion = item.command == kPolygonInclusion;
       fence.shape = FencePolygon{};
-      if (const auto added = push(item, std::move(fence)); !added) return added;
+      if (auto added = push(item, std::move(fence)); !added) return added;
     }
     if (count != polygon_count_)
       return refuse(item, fmt::format("{:g} corners, and {} at the first one", count, polygon_count_));

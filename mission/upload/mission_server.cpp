@@ -134,6 +134,7 @@ std::string MissionServer::hand_over(std::uint8_t type, std::vector<MissionItemI
     why = taker_.take_fences(wire);
   } else {
     std::vector<Item> items;
+    items.reserve(wire.size());
     for (const MissionItemInt& item : wire) items.push_back(item_of(item));
     why = taker_.take(items);
   }

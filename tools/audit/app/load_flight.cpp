@@ -47,7 +47,7 @@ std::optional<double> summary_flight_s(const std::string& log) {
 std::string goals_from(const FlightRecord& record) {
   for (const ConfigurationReport& report : record.configurations) {
     ConfigDocument document = ConfigDocument::parse(report.yaml, report.process);
-    if (const std::string process = read_goals_from(document); !process.empty()) return process;
+    if (std::string process = read_goals_from(document); !process.empty()) return process;
   }
   return "";
 }
