@@ -5,6 +5,8 @@
 #include <charconv>
 #include <fstream>
 
+#include "core/wire/message_limits.h"
+
 namespace tern {
 namespace {
 
@@ -35,6 +37,7 @@ std::optional<LogEvent> event_of_line(std::string_view line) {
   event.channel = line.substr(0, first);
   const char* const end = line.data() + second;
   if (std::from_chars(line.data() + first + 1, end, event.received_us).ptr != end) return std::nullopt;
+  if (event.received_us < -kMaxTimeUs || event.received_us > kMaxTimeUs) return std::nullopt;
   const std::string_view hex = line.substr(second + 1);
   if (hex.size() % 2 != 0 || hex.size() / 2 > kLogMaxDataBytes) return std::nullopt;
   event.data.reserve(hex.size() / 2);

@@ -91,6 +91,19 @@ TEST(LogReader, ALengthThatCrashesLcmsReaderCostsOneEvent) {
   EXPECT_FALSE(reading.damage.truncated);
 }
 
+TEST(LogReader, ATimeBeyondAllClocksCostsOneEvent) {
+  const TempFolder folder;
+  const std::string log = slurp(make_log(folder, 10));
+  for (const char first : {'\x7f', '\x80'}) {
+    std::string damaged = log;
+    damaged[3 * kEventBytes + 12] = first;
+    const Reading reading = read(folder, damaged);
+    EXPECT_EQ(reading.events.size(), 9U);
+    EXPECT_EQ(reading.damage.places, 1);
+    EXPECT_EQ(reading.damage.missing, 1);
+  }
+}
+
 TEST(LogReader, APlausibleWrongLengthCostsOneEvent) {
   const TempFolder folder;
   std::string log = slurp(make_log(folder, 10));
