@@ -59,7 +59,7 @@ std::optional<LogReader::Head> LogReader::head_at(std::size_t offset) {
   head.received_us = static_cast<std::int64_t>(read_big_endian(at + 12, 8));
   head.channel_bytes = static_cast<std::size_t>(read_big_endian(at + 20, 4));
   head.data_bytes = static_cast<std::size_t>(read_big_endian(at + 24, 4));
-  // Such a time is damage; sums of it would overflow.
+  // No clock has such a time, and differences of such times overflow: the bytes are damaged.
   if (head.received_us < -kMaxTimeUs || head.received_us > kMaxTimeUs) return std::nullopt;
   if (head.number < 0 || head.channel_bytes < 1 || head.channel_bytes > kLogMaxChannelBytes ||
       head.data_bytes > kLogMaxDataBytes) {

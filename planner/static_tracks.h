@@ -92,7 +92,7 @@ class StaticTracks {
   bool add_static(const TrackSet& set);
   bool add_resting(const TrackSet& set);
   static bool take_box(const Track& track, Resting& resting);
-  [[nodiscard]] std::vector<Box> wide_boxes() const;
+  [[nodiscard]] std::vector<Box> wide_boxes() const;  ///< O(n²) in the resting tracks; called when a box changes
 
   std::map<std::int64_t, Known> by_id_;
   std::map<std::int64_t, Resting> resting_;

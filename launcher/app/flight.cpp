@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <exception>
@@ -200,6 +201,10 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
   if (!options.autopilot.empty()) {
     const bool has_defaults = options.autopilot_sim && !document.root().section("autopilot_sim").flag("tuned", false);
     options.autopilot_limits = autopilot_limits(scenario.uav.limits, has_defaults);
+    std::erase_if(options.autopilot_limits, [&](const std::string& value) {  // the user's own value wins
+      const std::string key = value.substr(0, value.find('=') + 1);
+      return std::ranges::any_of(options.overrides, [&](const std::string& own) { return own.starts_with(key); });
+    });
   }
   const std::vector<std::string> sections = document.root().keys();
   options.detects = std::ranges::find(sections, "detector") != sections.end();

@@ -24,7 +24,7 @@ constexpr std::size_t kMaxSaid = 4096;
 /// Longest reason of tern-unlaz in an error.
 constexpr std::size_t kMaxReason = 200;
 
-/// What a child has written.
+/// The output of a child process.
 struct Output {
   std::vector<std::uint8_t> points;  ///< standard output
   std::string said;                  ///< the end of standard error

@@ -302,6 +302,13 @@ Mission slow_steps() {
 class FencedMission : public MissionNodeTest {
  protected:
   FencedMission() { takes_fences_ = true; }
+  void expect_flown_once_fences_are_cleared() {
+    send(mavlink::MissionClearAll{1, 1, kFenceType});
+    run(1.0);
+    order_start();
+    run(5.0);
+    EXPECT_EQ(flown_to_.size(), 3u);
+  }
 };
 
 const std::vector<mavlink::MissionItemInt> kPond{fence_item(testing::kCircleExclusion, 0.5F, 6, 8)};
@@ -359,11 +366,7 @@ TEST_F(FencedMission, FencesOnAStepOrOnTheVehicleAreRefusedAndTheMissionCannotBe
   run(3.0);
   EXPECT_TRUE(flown_to_.empty());
   EXPECT_THAT(said(), ::testing::HasSubstr("the last upload of fences was refused: upload or clear fences"));
-  send(mavlink::MissionClearAll{1, 1, kFenceType});
-  run(1.0);
-  order_start();
-  run(5.0);
-  EXPECT_EQ(flown_to_.size(), 3u);
+  expect_flown_once_fences_are_cleared();
 }
 
 TEST_F(FencedMission, AnUploadOfFencesThatBreaksOffKeepsTheMissionOnTheGround) {
@@ -465,11 +468,7 @@ TEST_F(FencedMission, WithADamagedRecordNothingIsFlownUntilFencesAreUploadedOrCl
   run(2.0);
   EXPECT_TRUE(flown_to_.empty());
   EXPECT_THAT(said(), ::testing::HasSubstr("the recorded fences are unreadable"));
-  send(mavlink::MissionClearAll{1, 1, kFenceType});
-  run(1.0);
-  order_start();
-  run(5.0);
-  EXPECT_EQ(flown_to_.size(), 3u);
+  expect_flown_once_fences_are_cleared();
 }
 
 TEST_F(FencedMission, FencesThatARestartWouldLoseAreRefused) {
