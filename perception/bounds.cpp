@@ -27,10 +27,13 @@ constexpr int kLeastFitting = 6;  ///< rays
 constexpr std::size_t kBounds = 6;
 constexpr std::array<int, kBounds> kSide = {-1, 1, -1, 1, -1, 1};
 
-/// The votes for one bound, and the innermost ray that passed beyond it.
+/// The votes for one bound, and the innermost rays that passed beyond it. Coordinates times side, m.
 struct Votes {
   std::array<int, idx(BoundSight::Unseen)> of{};
-  float beyond = kInfinity;  ///< coordinate times side, m
+  float beyond = kInfinity;       ///< of rays that passed no other bound
+  float near_corner = kInfinity;  ///< of all: such a ray may have missed the obstacle at its end along another axis
+
+  [[nodiscard]] float innermost() const { return beyond < kInfinity ? beyond : near_corner; }
 
   [[nodiscard]] BoundSight verdict() const {
     int all = 0;
@@ -104,35 +107,46 @@ class Surroundings {
 
   void vote(const ClusterRays& rays, std::size_t k, int pixel, const Eigen::Vector3f& ray) {
     const float depth = continued(rays, k, ray);
-    const auto [bound, beyond] = passed_by(rays, k, ray * depth);
-    if (bound == kBounds) return;
+    const Passed passed = passed_by(rays, k, ray * depth);
+    if (passed.bound == kBounds) return;
     const BoundSight sight = judged(pixel, depth);
-    ++votes[bound].of[idx(sight)];
-    if (sight == BoundSight::Whole) votes[bound].beyond = std::min(votes[bound].beyond, beyond);
+    Votes& of = votes[passed.bound];
+    ++of.of[idx(sight)];
+    if (sight != BoundSight::Whole) return;
+    of.near_corner = std::min(of.near_corner, passed.beyond);
+    if (passed.is_alone) of.beyond = std::min(of.beyond, passed.beyond);
   }
 
-  /// The bound that the way from ray k's point to another one passes first, and how far out it ends. If it passes none,
-  /// the bound that it leads to, and infinity.
-  [[nodiscard]] std::pair<std::size_t, float> passed_by(const ClusterRays& rays, std::size_t k,
-                                                        const Eigen::Vector3f& to) const {
+  /// A bound that a way passes or leads to, how far out the way ends, and whether it passes no other bound.
+  struct Passed {
+    std::size_t bound = kBounds;
+    float beyond = kInfinity;  ///< coordinate times side, m; infinity: it only leads there
+    bool is_alone = false;
+  };
+
+  /// The bound that the way from ray k's point to another one passes first, or else the bound that it leads to.
+  [[nodiscard]] Passed passed_by(const ClusterRays& rays, std::size_t k, const Eigen::Vector3f& to) const {
     std::array<float, kBounds> from{}, move{};  // times side
     for (std::size_t b = 0; b < kBounds; ++b) {
       from[b] = static_cast<float>(kSide[b]) * rays.ray[b / 2][k] * rays.fitted[k];
       move[b] = static_cast<float>(kSide[b]) * to[static_cast<Eigen::Index>(b / 2)] - from[b];
     }
     const float longest = *std::max_element(move.begin(), move.end());
-    std::pair<std::size_t, float> passed{kBounds, kInfinity};
+    Passed passed;
     float earliest = kInfinity;
+    int crossed = 0;
     for (std::size_t b = 0; b < kBounds; ++b) {
       const float inside = outermost[b] - from[b];
+      crossed += move[b] > inside ? 1 : 0;
       if (move[b] - inside <= kLeastExcess * longest || inside >= earliest * move[b]) continue;
       earliest = inside / move[b];
       passed = {b, from[b] + move[b]};
     }
-    if (passed.first < kBounds) return passed;
+    passed.is_alone = crossed == 1;
+    if (passed.bound < kBounds) return passed;
     for (std::size_t b = 0; b < kBounds; ++b) {
       const float extent = outermost[b] + outermost[b ^ 1U];
-      if (move[b] >= longest && outermost[b] - from[b] < kBand * extent) return {b, kInfinity};
+      if (move[b] >= longest && outermost[b] - from[b] < kBand * extent) return {b};
     }
     return passed;
   }
@@ -188,8 +202,8 @@ Bound end_bound(const Votes& votes, double outermost, double pixel, double face_
   bound.sight = votes.verdict();
   bound.at = outermost;
   double gap = pixel;
-  if (bound.sight == BoundSight::Whole && votes.beyond < kInfinity) {
-    gap = static_cast<double>(votes.beyond) - outermost;
+  if (bound.sight == BoundSight::Whole && votes.innermost() < kInfinity) {
+    gap = static_cast<double>(votes.innermost()) - outermost;
     bound.at += 0.5 * gap;
   }
   bound.sigma = std::sqrt(gap * gap / 12.0 + face_error * face_error) + kBoundSigma;

@@ -25,7 +25,8 @@ namespace tern {
 /// - If more than a fifth of the votes are for Occluded, Touching or Cut, the bound gets the most frequent of these
 ///   flags. This holds for fitted faces as well.
 /// - A Whole bound lies between the outermost point and the innermost ray that passed beyond it. Its place is the
-///   middle of both, with the σ of a uniform error.
+///   middle of both, with the σ of a uniform error. A ray that passed another bound as well may have missed the box
+///   there. Such rays count only if there are no others.
 /// - A bound without votes faces away from the sensor: Unseen.
 /// - A weak face may be the side of something hidden. If one of its ends along the other axes is not Whole, the face
 ///   gets the flag of that end (Occluded for an Unseen one).

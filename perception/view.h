@@ -17,7 +17,8 @@ SensorView view_of(const DepthPicture& picture);
 enum class Looked : std::uint8_t {
   OutOfView,  ///< outside the field of view or the range, or in a blind cell
   Blocked,    ///< something nearer, or at the point itself, was measured in its cell
-  Through,    ///< the whole cell measured more than 3σ + kThroughMargin farther: the point is empty
+  /// The whole cell measured more than 3σ + kThroughMargin farther. Nothing is there, or it fits between two rays.
+  Through,
 };
 inline constexpr double kThroughMargin = 0.15;  ///< m; a step between two pixels on a slanted surface at 10 m
 
