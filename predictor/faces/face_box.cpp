@@ -89,6 +89,13 @@ AnchorMeasurement FaceBox::measure(const Vec3& anchor, const Sighting& sighting)
   return measured;
 }
 
+bool FaceBox::is_located_by(const Sighting& sighting) const {
+  for (std::size_t b = 0; b < sighting.bounds.size(); ++b) {
+    if (is_end(sighting.bounds[b]) && axes_[b / 2][b % 2].measured > 0) return true;
+  }
+  return false;
+}
+
 void FaceBox::learn_axis(Axis& axis, double anchor, const std::array<double, 2>& bounds,
                          const std::array<double, 2>& sigmas, const std::array<BoundSight, 2>& sights) const {
   const bool both_ends = is_end(sights[0]) && is_end(sights[1]);
@@ -99,6 +106,7 @@ void FaceBox::learn_axis(Axis& axis, double anchor, const std::array<double, 2>&
     const int times = std::min(axis[0].measured, axis[1].measured);
     const bool disagrees =
         std::abs(longer) > tolerance(variance + axis[0].sigma * axis[0].sigma + axis[1].sigma * axis[1].sigma);
+    const bool is_taken_at_once = disagrees && longer > 0.0 && times < kSureSize;
     const double follow = std::max(kSizeFollows, 1.0 / (times + 1.0));
     // A size that disagrees belongs to the face that lies farther from its prediction.
     std::array<double, 2> share{0.5, 0.5};
@@ -109,7 +117,7 @@ void FaceBox::learn_axis(Axis& axis, double anchor, const std::array<double, 2>&
     }
     for (std::size_t side = 0; side < 2; ++side) {
       FaceReach& face = axis[side];
-      face.reach += share[side] * longer * (disagrees && longer > 0.0 ? 1.0 : follow);
+      face.reach += share[side] * longer * (is_taken_at_once ? 1.0 : follow);
       face.measured = std::min(face.measured + 1, kMostMeasurements);
       face.sigma = std::max(kLeastSigma, std::min(face.sigma, sigmas[side] / std::sqrt(face.measured)));
     }

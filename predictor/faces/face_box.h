@@ -12,8 +12,9 @@
 namespace tern {
 
 /// A known size follows measured ones by at least this share of the difference. If a measured size is larger and
-/// disagrees, it is taken at once.
+/// disagrees, it is taken at once, unless the size was measured kSureSize times: then a neighbour may have merged.
 inline constexpr double kSizeFollows = 0.05;
+inline constexpr int kSureSize = 5;
 
 /// True for a bound that is a measured end of the obstacle.
 constexpr bool is_end(BoundSight sight) { return sight == BoundSight::Face || sight == BoundSight::Whole; }
@@ -68,6 +69,8 @@ class FaceBox {
   /// Returns the anchor by the measured ends whose reach is known. Where the two ends of an axis disagree with the
   /// known size, the one nearer to its prediction counts.
   [[nodiscard]] AnchorMeasurement measure(const Vec3& anchor, const Sighting& sighting) const;
+  /// True if measure() would measure the anchor along an axis.
+  [[nodiscard]] bool is_located_by(const Sighting& sighting) const;
   /// Learns reaches. @param anchor  after its update; @param axes  those that may be learnt
   void learn(const Vec3& anchor, const Sighting& sighting, const std::array<bool, 3>& axes = {true, true, true});
 

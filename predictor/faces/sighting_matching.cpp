@@ -21,8 +21,8 @@ std::vector<int> match_sightings(const std::vector<PredictedFaces>& tracks, cons
     const Box around = grown(box->completed(anchor), Vec3::Constant(gate));
     for (std::size_t s = 0; s < sightings.size(); ++s) {
       if (!around.intersects(Box(sightings[s].lower, sightings[s].upper))) continue;
-      const double cost = box->mismatch(anchor, sightings[s], kNothingCompared * gate) / gate;
-      if (cost < 1.0) pairs.push_back({cost, t, s});
+      const double mismatch = box->mismatch(anchor, sightings[s], kNothingCompared * gate);
+      if (mismatch < gate) pairs.push_back({mismatch + gate, t, s});
     }
   }
   std::ranges::sort(pairs, {}, [](const Pair& a) { return std::tuple(a.cost, a.track, a.sighting); });

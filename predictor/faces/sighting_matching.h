@@ -27,9 +27,10 @@ struct PredictedFaces {
 inline double face_gate(double deviation) { return std::min(kMaxFaceGate, kFaceGate + kFaceGateSigmas * deviation); }
 
 inline constexpr int kNoSighting = -1;
-/// Returns the index of each track's sighting, or kNoSighting. The best pairs are taken first; a pair's cost is
-/// FaceBox::mismatch() as a share of the track's gate. Ties are resolved by index.
-/// O(n log n) for n pairs within their gates, and a comparison of intervals for each pair of track and sighting.
+/// Returns the index of each track's sighting, or kNoSighting. The best pairs are taken first. A pair's cost is
+/// FaceBox::mismatch() plus the track's gate: without the gate, a track with an uncertain place would take the
+/// sightings of its neighbours. Ties are resolved by index. O(n log n) for n pairs within their gates, and a comparison
+/// of intervals for each pair of track and sighting.
 std::vector<int> match_sightings(const std::vector<PredictedFaces>& tracks, const std::vector<Sighting>& sightings);
 
 }  // namespace tern

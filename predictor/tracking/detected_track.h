@@ -18,6 +18,7 @@ struct DetectedTrack {
   Vec3 variance = Vec3::Zero();  ///< of the position, m²
   const BankFilter* bank = nullptr;
   bool is_stationary = false;  ///< true: no prediction of it is stored
+  bool is_coarse = false;      ///< seen with few points (kCoarsePoints)
 
   [[nodiscard]] double age_s(UTime at) const { return (at - born).seconds(); }
 };

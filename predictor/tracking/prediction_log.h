@@ -33,6 +33,7 @@ struct StoredPrediction {
   ScoredInterval interval;       ///< its interval, for Calibration
   ModelPredictions models;       ///< each model's own prediction, for ModelWeights
   LearntInput learnt_input;      ///< the regressors of a sample, for LearntModel
+  bool is_coarse = false;        ///< DetectedTrack::is_coarse at the start
   std::size_t next = 0;          ///< the next one of kEvaluatedAhead
 };
 

@@ -17,7 +17,8 @@ static_assert(is_evaluated(kSpeedSpan) && std::all_of(kLearntAhead.begin(), kLea
 
 }  // namespace
 
-PredictionScorer::PredictionScorer(double confidence, bool learns) : learns_(learns), calibration_(confidence) {
+PredictionScorer::PredictionScorer(double confidence, bool learns)
+    : learns_(learns), calibration_(confidence), coarse_calibration_(confidence) {
   const BankStep none = bank_step(0.0);
   for (std::size_t k = 0; k < output_rows_.size(); ++k)
     output_rows_[k] = bank_output_rows(bank_step(kEvaluatedAhead[k]), none);
@@ -33,8 +34,10 @@ void PredictionScorer::update(UTime at, const std::vector<DetectedTrack>& seen, 
         [&](StoredPrediction& prediction, const Measurement& truth) { evaluate(prediction, truth, track.id, record); },
         finished_);
   }
-  calibration_.set_scene_speed(speeds_.scene_speed());
-  calibration_.refresh();
+  for (Calibration* calibration : {&calibration_, &coarse_calibration_}) {
+    calibration->set_scene_speed(speeds_.scene_speed());
+    calibration->refresh();
+  }
   if (learns_) refit_learnt_model();
   for (const DetectedTrack& track : seen) {
     TrackRecord& record = log_.at(track.id);
@@ -53,7 +56,7 @@ void PredictionScorer::evaluate(StoredPrediction& prediction, const Measurement&
   const double score = own > 0.0 ? std::min(own, exchange_.margin(prediction, truth, record)) : own;
   prediction.interval.add(error_of(mixture, truth), mixture.deviation, score, ahead_s);
   const std::size_t band = index_in(kCoverageHorizons, ahead_s);
-  if (band < kBands) prediction.interval.end_band(band, calibration_);
+  if (band < kBands) prediction.interval.end_band(band, prediction.is_coarse ? coarse_calibration_ : calibration_);
 
   const bool is_exchanged = score < own;
   if (is_exchanged) return;
@@ -78,7 +81,8 @@ void PredictionScorer::refit_learnt_model() {
 void PredictionScorer::store_prediction(const DetectedTrack& track, UTime at, TrackRecord& record) {
   const Assessment assessed = assessment(track, at, record.scores);
   StoredPrediction& prediction = PredictionLog::store(track, at, record);
-  prediction.interval = ScoredInterval(assessed.of, calibration_);
+  prediction.is_coarse = track.is_coarse;
+  prediction.interval = ScoredInterval(assessed.of, calibration(track.is_coarse));
   prediction.models.pool = ModelWeights::pool_of(track, at, record.scores);
   prediction.models.learnt_horizon_s = assessed.weights.learnt_horizon_s;
   if (learns_) {

@@ -31,6 +31,8 @@ namespace tern {
 /// | LearntModel  | at each of kLearntAhead the position, with the track's features   | a motion model of the flight |
 /// | ModelWeights | at each of kScoredAhead the errors of all models                  | weights of the models        |
 ///
+/// Coarse tracks have a Calibration of their own.
+///
 /// If two tracks may have exchanged their detections (exchange.h), the last two receive nothing, because the error
 /// is that of another track.
 ///
@@ -54,7 +56,10 @@ class PredictionScorer {
   /// Returns the weights of the models for a track, and its class. A track without scores has the weights of its pool.
   /// @param track  in its present state, which may be newer than the last update()
   [[nodiscard]] Assessment assessment(const DetectedTrack& track, UTime last_seen) const;
-  [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  /// The margins of coarse tracks, or of all others.
+  [[nodiscard]] const Calibration& calibration(bool is_coarse = false) const {
+    return is_coarse ? coarse_calibration_ : calibration_;
+  }
   [[nodiscard]] const LearntModel& learnt() const { return learnt_; }
   [[nodiscard]] const SpeedRecord& speeds() const { return speeds_; }
   /// The predictions that the last update() finished.
@@ -70,7 +75,7 @@ class PredictionScorer {
   PredictionLog log_;
   ExchangeSearch exchange_;
   SpeedRecord speeds_;
-  Calibration calibration_;
+  Calibration calibration_, coarse_calibration_;
   LearntModel learnt_;
   ModelWeights weights_;
   std::vector<ScoredPrediction> finished_;

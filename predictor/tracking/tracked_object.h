@@ -41,9 +41,15 @@ struct TrackedObject {
   int misses = 0;                 ///< of a track by sightings: looked for and not found, less those found since, ≥ 0
   std::array<int, 3> rejected{};  ///< of a track by sightings, per axis: measurements in a row that were outliers
   bool is_located = true;         ///< the last detection had a position on all axes
+  int points = 0;                 ///< of a track by sightings: the most of late, an eighth less with each sighting
   /// Of a track by sightings: its speed at its last sighting was at most kKnownRest.
   bool is_rest_known = false;
   std::array<UTime, 3> located_at{};  ///< of a track by sightings, per axis: the last detection with a position there
 };
+
+/// A track that is seen with fewer points is coarse. Neighbours often merge into one sighting then, so errors of coarse
+/// tracks say little about others.
+inline constexpr int kCoarsePoints = 64;
+inline bool is_coarse(const TrackedObject& object) { return object.is_sighted && object.points < kCoarsePoints; }
 
 }  // namespace tern

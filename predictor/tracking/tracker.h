@@ -79,7 +79,8 @@ inline constexpr int kMissesToDelete = 4, kMissesOfTentative = 2, kMissOfLidar =
 /// A track by sightings that was not seen for longer can be missed by every sensor that sees through it. These are
 /// five frames at 10 Hz.
 inline constexpr Duration kOthersMissAfter{500'000};
-/// A track by sightings that moves and was not seen for longer is deleted, wherever it may be.
+/// A track by sightings that moves and was not seen for longer is deleted, wherever it may be. It ends sooner, after
+/// kUnseenAfter, once its place is so uncertain that its gate is kMaxFaceGate.
 inline constexpr Duration kSightingCoast{3'000'000};
 /// The newest sets of so many sensors are kept.
 inline constexpr std::size_t kMaxSensors = 64;

@@ -101,7 +101,8 @@ const std::vector<LearntCoefficients>& Tracker::learnt_coefficients(std::size_t 
 Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs& inputs) const {
   const PredictionScorer::Assessment assessment = this->assessment(object);
   const bool is_sure = object.confirmed || object.detections > 1;
-  const PerLevel& margins = is_sure ? scorer_.calibration().margins(assessment.of) : inputs.unsure_margins;
+  const Calibration& calibration = scorer_.calibration(is_coarse(object));
+  const PerLevel& margins = is_sure ? calibration.margins(assessment.of) : inputs.unsure_margins;
   const double since_s = (inputs.from - object.last_seen).seconds();
   const bool is_unseen = since_s > kUnseenAfter;
   const Vec3 unlocated_s = unlocated_for(object, is_unseen);
@@ -125,7 +126,7 @@ Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs&
   }
   TrackBound& bound = forecast.bound;
   bound.kind = assessment.of.motion;
-  bound.evidence = scorer_.calibration().evidence(assessment.of, band_of(since_s + ends_[bound_at_].seconds()));
+  bound.evidence = calibration.evidence(assessment.of, band_of(since_s + ends_[bound_at_].seconds()));
   bound.ruled_by = bound.evidence < Calibration::kPriorWeight ? BoundRule::Prior : BoundRule::Measured;
   return forecast;
 }

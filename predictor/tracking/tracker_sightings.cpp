@@ -23,6 +23,16 @@ namespace {
 // A sensor's velocity is taken from its newest two frames if they are at most this far apart.
 constexpr Duration kVelocitySpan{500'000};
 
+// The largest standard deviation of a mover's anchor, on an axis with a position, m.
+double place_sigma(const TrackedObject& object) {
+  const Vec3 variance = object.moving.lead().variance();
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (object.faces.has_position(axis)) largest = std::max(largest, variance[axis]);
+  }
+  return std::sqrt(largest);
+}
+
 Vec3 middle(const Sighting& sighting) { return 0.5 * (sighting.lower + sighting.upper); }
 
 // The parts of a frame that the filters need.
@@ -38,6 +48,16 @@ ObservationSet without_detections(const SightingSet& frame) {
 
 bool contains(const std::vector<Box>& boxes, const Box& piece) {
   return std::ranges::any_of(boxes, [&](const Box& box) { return box.contains(piece); });
+}
+
+// True if each of 27 points of the piece lies in one of the boxes: it is a part of one, or a cluster of several.
+bool is_covered(const std::vector<Box>& boxes, const Box& piece) {
+  for (int k = 0; k < 27; ++k) {
+    const Vec3 share(0.5 * (k % 3), 0.5 * (k / 3 % 3), 0.5 * (k / 9));
+    const Vec3 p = piece.min() + share.cwiseProduct(piece.sizes());
+    if (std::ranges::none_of(boxes, [&](const Box& box) { return box.contains(p); })) return false;
+  }
+  return true;
 }
 
 // The variance of an anchor, m². Axes share their covariances, and so most of the work, while their variances are
@@ -96,6 +116,7 @@ TrackedObject Tracker::start_faces(const Sighting& sighting, double common, cons
   // The anchor is by definition here; only the frame's own error is unknown.
   TrackedObject object = start_track({anchor, {}, Vec3::Constant(common), kNoTrackId}, from, id);
   object.is_sighted = true;
+  object.points = sighting.points;
   object.faces = faces;
   object.half_extents = 0.5 * faces.completed(anchor).sizes();
   object.is_located = faces.positions() == 3;
@@ -106,6 +127,7 @@ TrackedObject Tracker::start_faces(const Sighting& sighting, double common, cons
 void Tracker::update_faces(TrackedObject& object, const Sighting& sighting, double common, const ObservationSet& from,
                            State& state) const {
   const Vec3 predicted = anchor(object);
+  object.points = std::max(sighting.points, object.points * 7 / 8);
   AnchorMeasurement measured = object.faces.measure(predicted, sighting);
   const std::array<bool, 3> is_sound = reject_outliers(object, predicted, sighting, measured);
   Detection detection{predicted, {}, variance_of(measured, common), kNoTrackId};
@@ -144,7 +166,10 @@ bool Tracker::is_lost(const TrackedObject& object, UTime at) const {
   const Duration unseen = at - object.last_seen;
   if (!object.confirmed) return object.misses >= kMissesOfTentative || unseen > kTentativeUnseen;
   if (object.misses >= kMissesToDelete || unseen > config_.remember_rest) return true;
-  return unseen > kSightingCoast && !is_stationary(object);
+  if (is_stationary(object)) return false;
+  // At the largest gate, what it would find may as well be another obstacle.
+  const bool is_vague = unseen.seconds() > kUnseenAfter && face_gate(place_sigma(object)) >= kMaxFaceGate;
+  return is_vague || unseen > kSightingCoast;
 }
 
 Vec3 Tracker::note_frame(State& state, const SightingSet& frame) const {
@@ -163,12 +188,8 @@ std::vector<PredictedFaces> Tracker::predicted_faces(const std::vector<TrackedOb
   std::vector<PredictedFaces> predicted;
   predicted.reserve(objects.size());
   for (const TrackedObject& object : objects) {
-    const Vec3 variance = object.moving.lead().variance();
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (object.faces.has_position(axis) && !is_stationary(object)) largest = std::max(largest, variance[axis]);
-    }
-    predicted.push_back({&object.faces, anchor(object), face_gate(std::sqrt(largest))});
+    const double sigma = is_stationary(object) ? 0.0 : place_sigma(object);
+    predicted.push_back({&object.faces, anchor(object), face_gate(sigma)});
   }
   return predicted;
 }
@@ -200,12 +221,17 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
   predict_to(state, frame.at);
   const std::vector<int> sighting_of = match_sightings(predicted_faces(state.sighted), frame.sightings);
   std::vector<bool> is_taken(frame.sightings.size(), false);
+  const auto box_of = [&](const TrackedObject& object) {
+    return grown(object.faces.completed(anchor(object)), Vec3::Constant(kPieceMargin));
+  };
   std::vector<Box> found;  // boxes of the tracks that were found
   for (std::size_t o = 0; o < state.sighted.size(); ++o) {
     if (sighting_of[o] == kNoSighting) continue;
     TrackedObject& object = state.sighted[o];
     const Sighting& sighting = frame.sightings[static_cast<std::size_t>(sighting_of[o])];
     is_taken[static_cast<std::size_t>(sighting_of[o])] = true;
+    // A mover of which no end is seen coasts: nothing tells that this is the same obstacle.
+    if (!is_stationary(object) && object.detections > 1 && !object.faces.is_located_by(sighting)) continue;
     if (object.detections == 1 && !object.confirmed) ++state.existence.again;
     ++object.age;
     object.hits <<= 1;
@@ -213,7 +239,7 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     update_faces(object, sighting, variance_at(middle(sighting), object.moving.lead().velocity()), from, state);
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
     if (const auto sizes = object.faces.measured_sizes(); sizes && object.confirmed) state.sizes.add(object.id, *sizes);
-    found.push_back(grown(object.faces.completed(anchor(object)), Vec3::Constant(kPieceMargin)));
+    found.push_back(box_of(object));
   }
   for (std::size_t o = 0; o < state.sighted.size(); ++o) {
     if (sighting_of[o] == kNoSighting) look_for(state.sighted[o], frame, found);
@@ -223,9 +249,12 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     if (is_dead && object.misses > 0 && object.detections == 1 && !object.confirmed) ++state.existence.never;
     return is_dead;
   });
+  for (const TrackedObject& object : state.sighted) {
+    if (object.confirmed && object.last_seen != frame.at) found.push_back(box_of(object));
+  }
   for (std::size_t s = 0; s < frame.sightings.size(); ++s) {
     const Sighting& sighting = frame.sightings[s];
-    if (is_taken[s] || contains(found, Box(sighting.lower, sighting.upper))) continue;
+    if (is_taken[s] || is_covered(found, Box(sighting.lower, sighting.upper))) continue;
     const double common = variance_at(middle(sighting), Vec3::Zero());
     state.sighted.push_back(start_faces(sighting, common, from, state.next_id++));
   }

@@ -152,15 +152,27 @@ TEST(FaceBox, AHiddenEndIsNearerThanTheSensor) {
   EXPECT_LT(end, 3.2);
 }
 
-TEST(FaceBox, GrowsAtOnceAndShrinksSlowly) {
+TEST(FaceBox, GrowsAtOnceUntilItsSizeIsSure) {
   Vec3 anchor;
   const Box small(Vec3(4, -0.5, 0), Vec3(5, 0.5, 1)), large(Vec3(4, -0.5, 0), Vec3(5, 1.5, 1));
-  FaceBox faces(sighting_of(small, all(BoundSight::Whole)), anchor);
-  for (int k = 0; k < 30; ++k) faces.learn(anchor, sighting_of(small, all(BoundSight::Whole)));
-  faces.learn(anchor, sighting_of(large, all(BoundSight::Whole)));
-  EXPECT_NEAR(faces.completed(anchor).max().y(), 1.5, 1e-6);
+  for (const bool is_sure : {false, true}) {
+    FaceBox faces(sighting_of(small, all(BoundSight::Whole)), anchor);
+    for (int k = 2; k < (is_sure ? 30 : kSureSize); ++k)
+      faces.learn(anchor, sighting_of(small, all(BoundSight::Whole)));
+    faces.learn(anchor, sighting_of(large, all(BoundSight::Whole)));
+    EXPECT_NEAR(faces.completed(anchor).max().y(), is_sure ? 0.55 : 1.5, 1e-6);
+    for (int k = 0; k < 200; ++k) faces.learn(anchor, sighting_of(large, all(BoundSight::Whole)));
+    EXPECT_NEAR(faces.completed(anchor).sizes().y(), 2.0, 0.02) << "a size that is seen for long is believed";
+  }
+}
+
+TEST(FaceBox, ShrinksSlowly) {
+  Vec3 anchor;
+  const Box small(Vec3(4, -0.5, 0), Vec3(5, 0.5, 1)), large(Vec3(4, -0.5, 0), Vec3(5, 1.5, 1));
+  FaceBox faces(sighting_of(large, all(BoundSight::Whole)), anchor);
+  for (int k = 0; k < 30; ++k) faces.learn(anchor, sighting_of(large, all(BoundSight::Whole)));
   faces.learn(anchor, sighting_of(small, all(BoundSight::Whole)));
-  EXPECT_GT(faces.completed(anchor).max().y(), 1.4);
+  EXPECT_GT(faces.completed(anchor).sizes().y(), 1.9);
   for (int k = 0; k < 200; ++k) faces.learn(anchor, sighting_of(small, all(BoundSight::Whole)));
   const Box shrunk = faces.completed(faces.measure(anchor, sighting_of(small, all(BoundSight::Whole))).position);
   EXPECT_NEAR(shrunk.max().y(), 0.5, 0.02);
@@ -193,6 +205,17 @@ TEST(SightingMatching, TakesTheBestPairsFirst) {
   EXPECT_EQ(match_sightings(tracks, {at(0.45), at(0.2)}), (std::vector{1, 0}));
   EXPECT_EQ(match_sightings(tracks, {at(0.3)}), (std::vector{kNoSighting, 0}));
   EXPECT_EQ(match_sightings(tracks, {at(-0.7), at(1.2)}), (std::vector{kNoSighting, kNoSighting}));
+}
+
+TEST(SightingMatching, AnUncertainTrackLeavesItsNeighboursSightingsAlone) {
+  const Box known(Vec3(4, -1, 0), Vec3(5, 0, 1)), vague(Vec3(4, -0.6, 0), Vec3(5, 0.4, 1));
+  Vec3 anchor, other_anchor;
+  const FaceBox box(sighting_of(known, all(BoundSight::Whole)), anchor);
+  const FaceBox other(sighting_of(vague, all(BoundSight::Whole)), other_anchor);
+  // It differs by 0.3 m of 0.6 m from the one, and by 0.1 m of 2 m from the other.
+  const Sighting between = sighting_of(Box(Vec3(4, -0.7, 0), Vec3(5, 0.3, 1)), all(BoundSight::Whole));
+  const std::vector<PredictedFaces> tracks{{&box, anchor, kFaceGate}, {&other, other_anchor, kMaxFaceGate}};
+  EXPECT_EQ(match_sightings(tracks, {between}), (std::vector{0, kNoSighting}));
 }
 
 TEST(SightingMatching, ComparesMeasuredEndsAlone) {

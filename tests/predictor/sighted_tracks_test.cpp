@@ -209,6 +209,81 @@ TEST(SightedTracks, AnAxisWithoutEndsIsPredictedAsLongUnseen) {
   EXPECT_LT(part[0].alpha[later].x(), 0.8 * none[0].alpha[later].x()) << "its place along x is seen";
 }
 
+// Cubes of 0.8 m, seen whole by a sensor at kEye.
+SightingSet cubes_frame(double t, const std::vector<Vec3>& centres) {
+  SightingSet set;
+  set.at = at_seconds(t);
+  set.view.sensor_position = kEye;
+  for (const Vec3& centre : centres) {
+    Sighting cube;
+    cube.lower = centre - Vec3::Constant(0.4);
+    cube.upper = centre + Vec3::Constant(0.4);
+    cube.lower_sigma = cube.upper_sigma = Vec3::Constant(0.01);
+    cube.bounds.fill(BoundSight::Whole);
+    cube.points = 100;
+    set.sightings.push_back(cube);
+  }
+  return set;
+}
+
+TEST(SightedTracks, AMoverOfWhichNoEndIsSeenCoasts) {
+  const auto flies_past = [](double t) { return Vec3(6, -2 + 2 * t, 2); };
+  Tracker tracker{TrackerConfig{}};
+  double t = 0.0;
+  for (; t < 1.0; t += 1.0 / kRate) tracker.update(cubes_frame(t, {flies_past(t)}), kEye);
+  ASSERT_EQ(tracker.sighted().size(), 1u);
+  const UTime last = tracker.newest();
+  // From now on something hides all ends. It may be another obstacle that is seen.
+  const auto hidden = [&](double at) {
+    SightingSet set = cubes_frame(at, {flies_past(at)});
+    set.sightings[0].bounds.fill(BoundSight::Occluded);
+    set.sightings[0].lower += Vec3::Constant(0.1);
+    set.sightings[0].upper -= Vec3::Constant(0.1);
+    return set;
+  };
+  for (; t < 1.2; t += 1.0 / kRate) tracker.update(hidden(t), kEye);
+  ASSERT_EQ(tracker.sighted().size(), 1u) << "the hidden part is explained by the track";
+  EXPECT_EQ(tracker.sighted()[0].last_seen, last);
+  for (; t < 1.0 + kSightingCoast.seconds(); t += 1.0 / kRate) tracker.update(hidden(t), kEye);
+  EXPECT_TRUE(std::ranges::none_of(tracker.sighted(), [](const TrackedObject& o) { return o.id == kFirstOwnTrackId; }))
+      << "it ends before the longest coast, once its place is uncertain";
+}
+
+TEST(SightedTracks, TwoThatMergeIntoOneSightingStartNoThird) {
+  const Vec3 left(6, -0.45, 2), right(6, 0.45, 2);
+  Tracker tracker{TrackerConfig{}};
+  double t = 0.0;
+  for (; t < 1.0; t += 1.0 / kRate) tracker.update(cubes_frame(t, {left, right}), kEye);
+  ASSERT_EQ(tracker.sighted().size(), 2u);
+  for (; t < 1.3; t += 1.0 / kRate) {
+    SightingSet set = cubes_frame(t, {left});
+    set.sightings[0].upper.y() = right.y() + 0.4;
+    tracker.update(set, kEye);
+  }
+  EXPECT_EQ(tracker.sighted().size(), 2u);
+}
+
+// The scores of all pools up to 0.25 s.
+double scores(const Calibration& calibration) {
+  double sum = 0.0;
+  for (const CalibratedClass& of : kCalibratedClasses) sum += calibration.evidence(of.of, 0);
+  return sum;
+}
+
+TEST(SightedTracks, CoarseOnesAreCalibratedApart) {
+  Tracker both{TrackerConfig{}}, clear_alone{TrackerConfig{}};
+  for (double t = 0.0; t < 3.0; t += 1.0 / kRate) {
+    const Vec3 clear(6, -4 + 2 * t, 2), coarse = clear + Vec3(5, 0, 0);
+    clear_alone.update(cubes_frame(t, {clear}), kEye);
+    SightingSet set = cubes_frame(t, {clear, coarse});
+    set.sightings[1].points = kCoarsePoints - 1;
+    both.update(set, kEye);
+  }
+  EXPECT_GT(scores(both.scorer().calibration(true)), 0.0);
+  EXPECT_EQ(scores(clear_alone.scorer().calibration(true)), 0.0);
+  EXPECT_EQ(scores(both.scorer().calibration(false)), scores(clear_alone.scorer().calibration(false)));
+}
+
 // A wall of 5 m of which the ends along y are hidden. It is seen between two values of y.
 SightingSet wall_frame(double t, double from, double to) {
   SightingSet set;
