@@ -8,6 +8,10 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
 # A fused multiply-add would make results depend on the compiler's mood; replays promise bytes.
 add_compile_options(-ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  add_compile_options(-include ${PROJECT_SOURCE_DIR}/cmake/arm64_unfused.h)
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)  # g++ uses a precompiled header only if nothing comes before it
+endif()
 
 # The Python module is a shared object: its code must be position independent. All is compiled so, thus once, for programs
 # and module. The second option lets g++ inline as it does for programs.

@@ -22,12 +22,14 @@ if [[ ! -e $TERN_SYSROOT/.made ]]; then
     ln -snf "$(realpath -m --relative-to="$(dirname "$link")" "$TERN_SYSROOT$(readlink "$link")")" "$link"
   done
   for library in blas lapack; do
-    ln -sf "$library/lib$library.so.3" "$TERN_SYSROOT/usr/lib/aarch64-linux-gnu/lib$library.so.3"
+    for name in "lib$library.so.3" "lib$library.so"; do
+      ln -sf "$library/lib$library.so.3" "$TERN_SYSROOT/usr/lib/aarch64-linux-gnu/$name"
+    done
   done
   touch "$TERN_SYSROOT/.made"
 fi
 
-cmake -S "$root" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTERN_BUILD_TESTS=OFF -DTERN_IPOPT=OFF \
+cmake -S "$root" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTERN_BUILD_TESTS=OFF \
   -DCMAKE_TOOLCHAIN_FILE="$root/cmake/arm64.cmake"
 cmake --build "$work/build" --target "$@"
 [[ $* == *tern-campaign* ]] || exit 0
