@@ -13,6 +13,8 @@ constexpr std::array<double, 2> kOutwards{-1.0, 1.0};
 // A reach is never known better than this, m: the boxes of real things are not quite axis-aligned.
 constexpr double kLeastSigma = 0.005;
 constexpr int kMostMeasurements = 100;
+// Errors of an end that are no mismatch, in standard deviations.
+constexpr double kMismatchSigmas = 3.0;
 // A place is known to the edge of a box no better than this, m.
 constexpr double kEndError = 0.1;
 
@@ -58,7 +60,8 @@ double FaceBox::mismatch(const Vec3& anchor, const Sighting& sighting, double un
       if (face.measured == 0) continue;
       const double beyond = kOutwards[side] * (bounds[side] - anchor[axis]) - face.reach;
       is_compared = is_compared || is_end(sights[side]);
-      worst = std::max(worst, is_end(sights[side]) ? std::abs(beyond) : beyond);
+      const double error = kMismatchSigmas * std::hypot(sigmas[side], face.sigma);
+      worst = std::max(worst, is_end(sights[side]) ? std::abs(beyond) - error : beyond);
     }
   }
   return is_compared ? worst : std::max(worst, unknown);
@@ -102,14 +105,16 @@ void FaceBox::learn_axis(Axis& axis, double anchor, const std::array<double, 2>&
   const double size = bounds[1] - bounds[0];
   if (both_ends && axis[0].measured > 0 && axis[1].measured > 0) {
     const double variance = sigmas[0] * sigmas[0] + sigmas[1] * sigmas[1];
+    const double known = axis[0].sigma * axis[0].sigma + axis[1].sigma * axis[1].sigma;
     const double longer = size - axis[0].reach - axis[1].reach;
     const int times = std::min(axis[0].measured, axis[1].measured);
-    const bool disagrees =
-        std::abs(longer) > tolerance(variance + axis[0].sigma * axis[0].sigma + axis[1].sigma * axis[1].sigma);
+    const bool disagrees = std::abs(longer) > tolerance(variance + known);
     const bool is_taken_at_once = disagrees && longer > 0.0 && times < kSureSize;
-    const double follow = std::max(kSizeFollows, 1.0 / (times + 1.0));
-    // A size that disagrees belongs to the face that lies farther from its prediction.
+    const double by_errors = known > variance ? known / (known + variance) : 0.0;
+    const double follow = std::max({kSizeFollows, 1.0 / (times + 1.0), by_errors});
+    // The less certain face gives way. A size that disagrees belongs to the face that lies farther from its prediction.
     std::array<double, 2> share{0.5, 0.5};
+    if (by_errors > 0.0) share = {axis[0].sigma * axis[0].sigma / known, axis[1].sigma * axis[1].sigma / known};
     if (disagrees) {
       const double of_lower = std::abs(anchor - bounds[0] - axis[0].reach);
       const double of_upper = std::abs(bounds[1] - anchor - axis[1].reach);

@@ -11,8 +11,9 @@
 
 namespace tern {
 
-/// A known size follows measured ones by at least this share of the difference. If a measured size is larger and
-/// disagrees, it is taken at once, unless the size was measured kSureSize times: then a neighbour may have merged.
+/// A known size follows measured ones by at least this share of the difference, and by more if it is less certain. If a
+/// measured size is larger and disagrees, it is taken at once, unless the size was measured kSureSize times: then a
+/// neighbour may have merged.
 inline constexpr double kSizeFollows = 0.05;
 inline constexpr int kSureSize = 5;
 

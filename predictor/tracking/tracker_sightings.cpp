@@ -224,14 +224,18 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
   const auto box_of = [&](const TrackedObject& object) {
     return grown(object.faces.completed(anchor(object)), Vec3::Constant(kPieceMargin));
   };
+  const auto is_seen_lately = [&](const TrackedObject& object) {
+    return (frame.at - object.last_seen).seconds() <= kUnseenAfter;  // so it is published
+  };
   std::vector<Box> found;  // boxes of the tracks that were found
   for (std::size_t o = 0; o < state.sighted.size(); ++o) {
     if (sighting_of[o] == kNoSighting) continue;
     TrackedObject& object = state.sighted[o];
     const Sighting& sighting = frame.sightings[static_cast<std::size_t>(sighting_of[o])];
-    is_taken[static_cast<std::size_t>(sighting_of[o])] = true;
-    // A mover of which no end is seen coasts: nothing tells that this is the same obstacle.
-    if (!is_stationary(object) && object.detections > 1 && !object.faces.is_located_by(sighting)) continue;
+    const bool is_coasting = !is_stationary(object) && object.detections > 1 && !object.faces.is_located_by(sighting);
+    // Nothing tells that this is the same obstacle. Soon it gets a track of its own.
+    is_taken[static_cast<std::size_t>(sighting_of[o])] = !is_coasting || is_seen_lately(object);
+    if (is_coasting) continue;
     if (object.detections == 1 && !object.confirmed) ++state.existence.again;
     ++object.age;
     object.hits <<= 1;
@@ -250,7 +254,7 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     return is_dead;
   });
   for (const TrackedObject& object : state.sighted) {
-    if (object.confirmed && object.last_seen != frame.at) found.push_back(box_of(object));
+    if (object.confirmed && object.last_seen != frame.at && is_seen_lately(object)) found.push_back(box_of(object));
   }
   for (std::size_t s = 0; s < frame.sightings.size(); ++s) {
     const Sighting& sighting = frame.sightings[s];

@@ -166,6 +166,24 @@ TEST(FaceBox, GrowsAtOnceUntilItsSizeIsSure) {
   }
 }
 
+// A side that is seen edge-on ends somewhere within metres.
+TEST(FaceBox, AnUncertainEndIsNoMismatchAndGivesWay) {
+  Vec3 anchor;
+  const Box box(Vec3(4, -0.5, 0), Vec3(4.4, 0.5, 1));
+  std::array<BoundSight, 6> front = all(BoundSight::Whole);
+  front[1] = BoundSight::Unseen;
+  FaceBox faces(sighting_of(box, front), anchor);
+  for (int k = 0; k < 30; ++k) faces.learn(anchor, sighting_of(box, front));
+  Sighting edge_on = sighting_of(box, all(BoundSight::Whole));
+  edge_on.upper.x() = 6.0;
+  edge_on.upper_sigma.x() = 1.2;
+  faces.learn(anchor, edge_on);
+  const Sighting clear = sighting_of(box, all(BoundSight::Whole));
+  EXPECT_LT(faces.mismatch(anchor, clear, 0.0), 0.05);
+  faces.learn(anchor, clear);
+  EXPECT_NEAR(faces.completed(anchor).max().x(), 4.4, 0.02);
+}
+
 TEST(FaceBox, ShrinksSlowly) {
   Vec3 anchor;
   const Box small(Vec3(4, -0.5, 0), Vec3(5, 0.5, 1)), large(Vec3(4, -0.5, 0), Vec3(5, 1.5, 1));

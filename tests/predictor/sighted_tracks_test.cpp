@@ -244,6 +244,8 @@ TEST(SightedTracks, AMoverOfWhichNoEndIsSeenCoasts) {
   for (; t < 1.2; t += 1.0 / kRate) tracker.update(hidden(t), kEye);
   ASSERT_EQ(tracker.sighted().size(), 1u) << "the hidden part is explained by the track";
   EXPECT_EQ(tracker.sighted()[0].last_seen, last);
+  for (; t < 1.5; t += 1.0 / kRate) tracker.update(hidden(t), kEye);
+  EXPECT_GE(tracker.sighted().size(), 2u) << "what is seen for longer has a track of its own";
   for (; t < 1.0 + kSightingCoast.seconds(); t += 1.0 / kRate) tracker.update(hidden(t), kEye);
   EXPECT_TRUE(std::ranges::none_of(tracker.sighted(), [](const TrackedObject& o) { return o.id == kFirstOwnTrackId; }))
       << "it ends before the longest coast, once its place is uncertain";
