@@ -38,6 +38,7 @@ cmake --build "$work/build" --target "$@"
 fly() {
   local name=$1
   shift
+  rm -rf "${work:?}/$name"
   "$@" fly-one --world "$root/scenarios/window.yaml" --seed 1 --charge counts --folder "$work/$name" >"$work/$name.rows"
   head -n 1 "$work/$name.rows" >"$work/$name.csv"
 }
