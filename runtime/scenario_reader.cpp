@@ -221,7 +221,10 @@ Route read_route(ConfigSection& section, const UavSpec& uav, std::uint64_t seed,
     entry.finish();
   }
   if (routes.empty()) {
-    return routes.emplace_back(section.vec3("start", uav.start, kPosition), section.vec3("goal", uav.goal, kPosition));
+    // One after the other: the order of reading is that of the effective scenario, and with it of its digest.
+    const Vec3 goal = section.vec3("goal", uav.goal, kPosition);
+    const Vec3 start = section.vec3("start", uav.start, kPosition);
+    return routes.emplace_back(start, goal);
   }
   if (section.has("start") || section.has("goal")) {
     throw section.error("routes", "cannot be combined with uav.start or uav.goal: each route has both");

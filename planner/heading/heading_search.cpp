@@ -102,7 +102,7 @@ double unseen_cost(double yaw, const std::vector<LookTarget>& targets, double ha
   for (const LookTarget& target : targets) {
     const double half = target.half_view > 0.0 ? target.half_view : half_view;
     const double off = std::abs(std::remainder(target.bearing - yaw, kTurn)) / half;
-    cost += target.worth * std::min(1.0, off * off);
+    cost += target.worth * (off <= 1.0 ? off * off : 1.0 + kBeyondView * (off - 1.0));
   }
   return cost;
 }

@@ -15,9 +15,12 @@ struct HeadingStart {
   double q0 = 0.0, q1 = 0.0;  ///< rad
 };
 
-/// Returns what this yaw costs per second: Σ worth · min(1, (angle / half_view)²) over the targets.
+/// Returns what this yaw costs per second: Σ worth · c(angle / half_view) over the targets, where
 ///
-/// The cost rises from the centre of the view outwards: at its edge, a prediction error or a turn loses the target.
+///     c(x) = x²   for x ≤ 1,        c(x) = 1 + kBeyondView (x − 1)   beyond the edge of the view
+///
+/// The cost rises from the centre of the view outwards: at its edge, a prediction error or a turn loses the target. It
+/// rises beyond the edge as well: a plan that is too short to bring a target into view turns towards it at least.
 /// @param half_view  half of the horizontal field of view, rad, > 0; a target may have its own
 double unseen_cost(double yaw, const std::vector<LookTarget>& targets, double half_view);
 

@@ -195,6 +195,8 @@ inline constexpr double kLastBarrierShare = 0.3;
 inline constexpr int kYawCells = 72;
 /// The grid has at least this many rates up to the largest one.
 inline constexpr double kRateSteps = 4.0;
+/// Slope of the cost of a direction beyond the edge of the view, per half width of the view.
+inline constexpr double kBeyondView = 0.1;
 /// Cost of turning, m per rad²/s: a turn at 2 rad/s costs 0.2 m each second.
 inline constexpr double kTurnCost = 0.05;
 /// The way ahead is looked at for this time and the time to stop, s.

@@ -129,6 +129,23 @@ TEST(HeadingSearch, TurnsTheShorterWayToTheOnlyTargetAndHalts) {
   }
 }
 
+// A plan of 1.2 s is too short to bring what lies behind into view. Each plan turns on where the one before began.
+TEST(HeadingSearch, TurnsTowardsWhatItCannotBringIntoViewWithinOnePlan) {
+  for (const double behind : {3.1, -3.1, 2.6}) {
+    Case c = looking_at(behind, 80.0);
+    c.interval = Duration{200'000};
+    const Duration replan{50'000};
+    const double edge = to_radians(0.5 * c.limits.view_deg);
+    int plans = 0;
+    while (std::abs(behind - c.start.yaw) > edge) {
+      ASSERT_LT(++plans, 60) << "3 s, at " << c.start.yaw << " rad";
+      const auto points = found(c);
+      ASSERT_TRUE(points);
+      c.start = HeadingSpline(heading_of(c, *points)).sample(kZero + replan);
+    }
+  }
+}
+
 TEST(HeadingSearch, StaysWhereItLooksIfNothingIsWorthATurn) {
   Case c = looking_at(0.0, 0.0);
   c.start.yaw = 1.25;
