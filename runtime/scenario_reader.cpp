@@ -214,18 +214,15 @@ Body read_body(ConfigSection section, Body body) {
 }
 
 using Route = std::pair<Vec3, Vec3>;
-/// Reads start and goal. If there are several routes, the seed draws one, and which of its ends is the start.
+/// Reads start and goal, in the order of braces: digests depend on it. Of several routes the seed draws one.
 Route read_route(ConfigSection& section, const UavSpec& uav, std::uint64_t seed, std::vector<Route>& routes) {
   for (ConfigSection entry : section.list("routes")) {
-    routes.emplace_back(entry.required_vec3("from", kPosition), entry.required_vec3("to", kPosition));
+    routes.push_back({entry.required_vec3("from", kPosition), entry.required_vec3("to", kPosition)});
     entry.finish();
   }
-  if (routes.empty()) {
-    // One after the other: the order of reading is that of the effective scenario, and with it of its digest.
-    const Vec3 goal = section.vec3("goal", uav.goal, kPosition);
-    const Vec3 start = section.vec3("start", uav.start, kPosition);
-    return routes.emplace_back(start, goal);
-  }
+  if (routes.empty())
+    return routes.emplace_back(
+        Route{section.vec3("start", uav.start, kPosition), section.vec3("goal", uav.goal, kPosition)});
   if (section.has("start") || section.has("goal")) {
     throw section.error("routes", "cannot be combined with uav.start or uav.goal: each route has both");
   }

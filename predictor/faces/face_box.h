@@ -12,7 +12,7 @@
 namespace tern {
 
 /// A known size follows measured ones by at least this share of the difference, and by more if it is less certain. If a
-/// measured size is larger and disagrees, it is taken at once, unless the size was measured kSureSize times: then a
+/// measured size is larger and disagrees, it is taken at once. A size that was measured kSureSize times never jumps: a
 /// neighbour may have merged.
 inline constexpr double kSizeFollows = 0.05;
 inline constexpr int kSureSize = 5;

@@ -41,7 +41,7 @@ struct TrackedObject {
   int misses = 0;                 ///< of a track by sightings: looked for and not found, less those found since, ≥ 0
   std::array<int, 3> rejected{};  ///< of a track by sightings, per axis: measurements in a row that were outliers
   bool is_located = true;         ///< the last detection had a position on all axes
-  int points = 0;                 ///< of a track by sightings: the most of late, an eighth less with each sighting
+  int points = 0;                 ///< of a track by sightings: the most of late, less an eighth at each sighting.
   /// Of a track by sightings: its speed at its last sighting was at most kKnownRest.
   bool is_rest_known = false;
   std::array<UTime, 3> located_at{};  ///< of a track by sightings, per axis: the last detection with a position there

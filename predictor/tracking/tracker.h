@@ -255,6 +255,7 @@ class Tracker {
   /// The predicted anchor of a track by sightings: by its resting filters if it is stationary.
   [[nodiscard]] Vec3 anchor(const TrackedObject& object) const;
   [[nodiscard]] bool is_lost(const TrackedObject& object, UTime at) const;
+  void remove_lost(State& state, UTime at) const;
   void predict_to(State& state, UTime at) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
   void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from, State& state) const;

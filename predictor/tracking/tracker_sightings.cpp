@@ -33,6 +33,9 @@ double place_sigma(const TrackedObject& object) {
   return std::sqrt(largest);
 }
 
+// So it is published, however much α has grown.
+bool is_seen_lately(const TrackedObject& object, UTime at) { return (at - object.last_seen).seconds() <= kUnseenAfter; }
+
 Vec3 middle(const Sighting& sighting) { return 0.5 * (sighting.lower + sighting.upper); }
 
 // The parts of a frame that the filters need.
@@ -212,6 +215,14 @@ void Tracker::limit_hidden_ends(TrackedObject& object, const SensorView& view) c
   object.faces.limit_hidden_ends(view, at, std::sqrt(frame_variance(kFrameOffset, from_sensor, Vec3::Zero()) + place));
 }
 
+void Tracker::remove_lost(State& state, UTime at) const {
+  std::erase_if(state.sighted, [&](const TrackedObject& object) {
+    const bool is_dead = is_lost(object, at);
+    if (is_dead && object.misses > 0 && object.detections == 1 && !object.confirmed) ++state.existence.never;
+    return is_dead;
+  });
+}
+
 void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicle) const {
   const ObservationSet from = without_detections(frame);
   const Vec3 sensor_velocity = note_frame(state, frame);
@@ -224,9 +235,6 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
   const auto box_of = [&](const TrackedObject& object) {
     return grown(object.faces.completed(anchor(object)), Vec3::Constant(kPieceMargin));
   };
-  const auto is_seen_lately = [&](const TrackedObject& object) {
-    return (frame.at - object.last_seen).seconds() <= kUnseenAfter;  // so it is published
-  };
   std::vector<Box> found;  // boxes of the tracks that were found
   for (std::size_t o = 0; o < state.sighted.size(); ++o) {
     if (sighting_of[o] == kNoSighting) continue;
@@ -234,7 +242,7 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     const Sighting& sighting = frame.sightings[static_cast<std::size_t>(sighting_of[o])];
     const bool is_coasting = !is_stationary(object) && object.detections > 1 && !object.faces.is_located_by(sighting);
     // Nothing tells that this is the same obstacle. Soon it gets a track of its own.
-    is_taken[static_cast<std::size_t>(sighting_of[o])] = !is_coasting || is_seen_lately(object);
+    is_taken[static_cast<std::size_t>(sighting_of[o])] = !is_coasting || is_seen_lately(object, frame.at);
     if (is_coasting) continue;
     if (object.detections == 1 && !object.confirmed) ++state.existence.again;
     ++object.age;
@@ -248,13 +256,10 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
   for (std::size_t o = 0; o < state.sighted.size(); ++o) {
     if (sighting_of[o] == kNoSighting) look_for(state.sighted[o], frame, found);
   }
-  std::erase_if(state.sighted, [&](const TrackedObject& object) {
-    const bool is_dead = is_lost(object, frame.at);
-    if (is_dead && object.misses > 0 && object.detections == 1 && !object.confirmed) ++state.existence.never;
-    return is_dead;
-  });
+  remove_lost(state, frame.at);
   for (const TrackedObject& object : state.sighted) {
-    if (object.confirmed && object.last_seen != frame.at && is_seen_lately(object)) found.push_back(box_of(object));
+    const bool is_hidden = object.confirmed && object.last_seen != frame.at && is_seen_lately(object, frame.at);
+    if (is_hidden) found.push_back(box_of(object));
   }
   for (std::size_t s = 0; s < frame.sightings.size(); ++s) {
     const Sighting& sighting = frame.sightings[s];
