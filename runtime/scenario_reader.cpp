@@ -52,7 +52,7 @@ std::string unique_name(const ConfigSection& section, std::string name, std::set
 }
 
 Box read_box(ConfigSection section) {
-  const Box box(section.required_vec3("min", kPosition), section.required_vec3("max", kPosition));
+  const Box box{section.required_vec3("min", kPosition), section.required_vec3("max", kPosition)};
   section.finish();
   if (!(box.min().array() < box.max().array()).all())
     throw section.error("max", "must be greater than min on every axis");
