@@ -56,8 +56,8 @@ bool contains(const std::vector<Box>& boxes, const Box& piece) {
 // True if each of 27 points of the piece lies in one of the boxes: it is a part of one, or a cluster of several.
 bool is_covered(const std::vector<Box>& boxes, const Box& piece) {
   for (int k = 0; k < 27; ++k) {
-    const Vec3 share(0.5 * (k % 3), 0.5 * (k / 3 % 3), 0.5 * (k / 9));
-    const Vec3 p = piece.min() + share.cwiseProduct(piece.sizes());
+    const Eigen::Vector3i halves(k % 3, k / 3 % 3, k / 9);
+    const Vec3 p = piece.min() + 0.5 * halves.cast<double>().cwiseProduct(piece.sizes());
     if (std::ranges::none_of(boxes, [&](const Box& box) { return box.contains(p); })) return false;
   }
   return true;
