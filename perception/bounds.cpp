@@ -56,7 +56,7 @@ class Surroundings {
       : picture_(picture), clusters_(clusters), group_(g), corner_(corner) {
     outermost.fill(-kInfinity);
     const PictureShape& shape = picture.shape();
-    R_WC_ = picture.pose().q_WC.toRotationMatrix().cast<float>();
+    rotation_WC_ = picture.pose().q_WC.toRotationMatrix().cast<float>();
     columns_ = shape.columns;
   }
 
@@ -83,14 +83,14 @@ class Surroundings {
 
  private:
   [[nodiscard]] Eigen::Vector3f ray_of(int pixel, int u, int v) const {
-    if (pixel < 0) return R_WC_ * picture_.shape().ray(u, v).cast<float>();
+    if (pixel < 0) return rotation_WC_ * picture_.shape().ray(u, v).cast<float>();
     return picture_.rays_W().row(pixel).transpose();
   }
 
   /// The depth at which a ray beside ray k meets the continued face of ray k.
   [[nodiscard]] float continued(const ClusterRays& rays, std::size_t k, const Eigen::Vector3f& ray) const {
     const float here = rays.fitted[k];
-    const int axis = rays.face[k];
+    const int axis = static_cast<unsigned char>(rays.face[k]);  // ray k lies on a face
     const float depth = corner_.plane[idx(axis)] / ray[axis];
     return depth > 0.5F * here && depth < 2.0F * here ? depth : here;
   }
@@ -155,7 +155,7 @@ class Surroundings {
   const Clusters& clusters_;
   int group_;
   const Corner& corner_;
-  Eigen::Matrix3f R_WC_;
+  Eigen::Matrix3f rotation_WC_;
   int columns_ = 0;
 };
 
