@@ -241,7 +241,7 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
     TrackedObject& object = state.sighted[o];
     const Sighting& sighting = frame.sightings[static_cast<std::size_t>(sighting_of[o])];
     const bool is_coasting = !is_stationary(object) && object.detections > 1 && !object.faces.is_located_by(sighting);
-    // Nothing tells that this is the same obstacle. Soon it gets a track of its own.
+    // Nothing tells that a coasting mover is what is seen here: soon this gets a track of its own.
     is_taken[static_cast<std::size_t>(sighting_of[o])] = !is_coasting || is_seen_lately(object, frame.at);
     if (is_coasting) continue;
     if (object.detections == 1 && !object.confirmed) ++state.existence.again;
