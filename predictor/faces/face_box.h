@@ -64,8 +64,8 @@ class FaceBox {
   FaceBox(const Sighting& sighting, Vec3& anchor);
 
   /// Returns the misfit between the sighting and the known faces, m, ≥ 0. It is the largest distance of a measured end
-  /// from its face, or of any other bound that lies outside its face. Three standard deviations of a measured end and its
-  /// face are left out.
+  /// from its face, or of any other bound that lies outside its face. Three standard deviations of a measured end and
+  /// its face are left out.
   /// @param unknown  the least result if no end can be compared, m
   [[nodiscard]] double mismatch(const Vec3& anchor, const Sighting& sighting, double unknown) const;
   /// Returns the anchor by the measured ends whose reach is known. Where the two ends of an axis disagree with the
