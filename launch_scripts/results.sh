@@ -6,6 +6,7 @@
 #     --first K     first seed (default 1)
 #     --out DIR     folder for the results
 #     --perception  instead the worlds without declared motions, 200 flights each, and the same with all motions declared
+#     --cameras     instead the worlds by simulated cameras and lidars, 200 flights each, and ablations of sensors and headings
 #     --sensors     instead perception_only with other ranges, noise, latencies and obstacle speeds, one at a time
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
@@ -44,6 +45,29 @@ for slowness in 1.1 2 3 4; do
   slow="perception_only 100 200 --charge counts --set world.slowness=$slowness"
   sensors+="slowness_$slowness $slow"$'\n'"slowness_${slowness}_oracle $slow --oracle"$'\n'
 done
+# Settings have no spaces: JSON, which is YAML.
+camera='{"type":"camera"}' lidar='{"type":"lidar"}' set="200 --charge counts --set"
+both="simulator.sensors=[$camera,$lidar]"
+cameras=""
+for count in 50 100 200; do
+  cameras+="sando_camera_lidar_$count sando_camera_lidar $count 200 --charge counts"$'\n'
+  cameras+="sando_camera_$count sando_camera $count 200 --charge counts"$'\n'
+done
+cameras+="
+corridor_two_cameras corridor_two_cameras 100 200 --charge counts
+corridor_camera_lidar corridor_two_cameras 100 $set $both
+mader_two_cameras mader_two_cameras 100 200 --charge counts
+mader_camera_lidar mader_two_cameras 100 $set $both
+blind_corner_camera_lidar blind_corner 4 $set $both
+blind_corner_passive blind_corner 4 $set $both --set planner.unseen=passive
+sando_camera_along sando_camera 200 $set planner.heading=along
+sando_camera_front_rear sando_camera 200 $set simulator.sensors=[$camera,{\"type\":\"camera\",\"yaw_deg\":180}]
+sando_camera_lidar_blocks sando_camera_lidar 200 $set simulator.sensors=[{\"type\":\"camera\",\"noise_block\":5},$lidar]
+sando_camera_lidar_body sando_camera_lidar 200 $set simulator.sensors=[{\"type\":\"camera\",\"mount\":\"body\"},$lidar]
+"
+for world in people_hermes_050 people_hermes_090 people_hermes_120 people_eth people_hotel; do
+  cameras+="${world}_camera_lidar $world 0 $set $both"$'\n'
+done
 
 share=1 first=1 out=$TERN_ROOT/build/results only=" " coverage=()
 while (($#)); do
@@ -52,6 +76,7 @@ while (($#)); do
     --first) first=${2:?} && shift 2 ;;
     --out) out=$(realpath -m "${2:?}") && shift 2 ;;
     --perception) campaigns=$perception coverage=(--coverage "$bin/tern-audit") && shift ;;
+    --cameras) campaigns=$cameras && shift ;;
     --sensors) campaigns=$sensors && shift ;;
     -h | --help) help_if_asked --help ;;
     -*) die "no option $1" ;;

@@ -44,6 +44,7 @@ struct TrackedObject {
   int points = 0;                 ///< of a track by sightings: the most of late, less an eighth at each sighting.
   /// Of a track by sightings: its speed at its last sighting was at most kKnownRest.
   bool is_rest_known = false;
+  bool is_doubtful = false;  ///< a track by sightings that began beside tracks that were seen: perhaps a part of them
   std::array<UTime, 3> located_at{};  ///< of a track by sightings, per axis: the last detection with a position there
 };
 

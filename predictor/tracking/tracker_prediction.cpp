@@ -33,7 +33,9 @@ Vec3 half_width(const MixturePrediction& mixture, const PerBand<double>& margins
 }  // namespace
 
 bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& existence) const {
-  if (object.confirmed || object.detections > 1) return true;
+  if (object.confirmed) return true;
+  if (object.is_doubtful) return false;
+  if (object.detections > 1) return true;
   return object.age <= kMissesToHide && existence.real_share() > 1.0 - config_.prediction.confidence;
 }
 

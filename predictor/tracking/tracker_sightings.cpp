@@ -38,6 +38,8 @@ bool is_seen_lately(const TrackedObject& object, UTime at) { return (at - object
 
 Vec3 middle(const Sighting& sighting) { return 0.5 * (sighting.lower + sighting.upper); }
 
+Box visible_part(const Sighting& sighting) { return {sighting.lower, sighting.upper}; }
+
 // The parts of a frame that the filters need.
 ObservationSet without_detections(const SightingSet& frame) {
   ObservationSet set;
@@ -51,6 +53,10 @@ ObservationSet without_detections(const SightingSet& frame) {
 
 bool contains(const std::vector<Box>& boxes, const Box& piece) {
   return std::ranges::any_of(boxes, [&](const Box& box) { return box.contains(piece); });
+}
+
+bool meets(const std::vector<Box>& boxes, const Box& piece) {
+  return std::ranges::any_of(boxes, [&](const Box& box) { return box.intersects(piece); });
 }
 
 // True if each of 27 points of the piece lies in one of the boxes: it is a part of one, or a cluster of several.
@@ -263,9 +269,10 @@ void Tracker::advance(State& state, const SightingSet& frame, const Vec3& vehicl
   }
   for (std::size_t s = 0; s < frame.sightings.size(); ++s) {
     const Sighting& sighting = frame.sightings[s];
-    if (is_taken[s] || is_covered(found, Box(sighting.lower, sighting.upper))) continue;
+    if (is_taken[s] || is_covered(found, visible_part(sighting))) continue;
     const double common = variance_at(middle(sighting), Vec3::Zero());
     state.sighted.push_back(start_faces(sighting, common, from, state.next_id++));
+    state.sighted.back().is_doubtful = meets(found, visible_part(sighting));
   }
   for (TrackedObject& object : state.sighted) limit_hidden_ends(object, frame.view);
   constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();

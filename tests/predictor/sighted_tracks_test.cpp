@@ -265,6 +265,24 @@ TEST(SightedTracks, TwoThatMergeIntoOneSightingStartNoThird) {
   EXPECT_EQ(tracker.sighted().size(), 2u);
 }
 
+TEST(SightedTracks, BesideATrackANewOneIsPublishedOnceConfirmed) {
+  const Vec3 known(6, -0.45, 2), beside(6, 0.45, 2), apart(6, 3, 2);
+  Tracker tracker{TrackerConfig{}};
+  int frames = 0;
+  const auto see = [&](const std::vector<Vec3>& cubes) { tracker.update(cubes_frame(frames++ / kRate, cubes), kEye); };
+  const auto published = [&] { return tracker.predict(tracker.newest()).size(); };
+  while (frames < 30) see({known});
+  ASSERT_EQ(published(), 1u);
+  see({known, beside});
+  EXPECT_EQ(published(), 1u) << "a part of the known one, or of both, may look so for a frame or two";
+  see({known, beside});
+  EXPECT_EQ(published(), 1u);
+  see({known, beside});
+  EXPECT_EQ(published(), 2u);
+  see({known, beside, apart});
+  EXPECT_EQ(published(), 3u) << "nothing is near that could be mistaken for it";
+}
+
 // The scores of all pools up to 0.25 s.
 double scores(const Calibration& calibration) {
   double sum = 0.0;

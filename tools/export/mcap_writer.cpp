@@ -98,7 +98,7 @@ void McapWriter::add(const std::string& topic, const ros::RosType& type, std::in
     schema_records_ += record(Op::Schema, fields);
   }
   const auto [known, is_new] =
-      topics_.try_emplace(topic, Topic{static_cast<std::uint16_t>(topics_.size()), type.name()});
+      topics_.try_emplace(topic, Topic{static_cast<std::uint16_t>(topics_.size() + 1), type.name()});
   if (is_new) {
     const Fields fields =
         Fields{}.integer(known->second.id).integer(known_schema->second).text(topic).text("cdr").text("");

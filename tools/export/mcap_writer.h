@@ -27,7 +27,7 @@ namespace tern::exporting {
 class McapWriter {
  public:
   struct Topic {
-    std::uint16_t id = 0;
+    std::uint16_t id = 0;  ///< of its Channel, from 1: the reader rosbags 0.10 leaves out messages of channel 0
     std::string type;
     std::uint32_t messages = 0;
   };
