@@ -39,6 +39,9 @@ struct LogChannel {
   }
 };
 
+/// LCM's own message at its start, on a channel of this name. It is part of every healthy log.
+inline constexpr char kLcmSelfTest[] = "LCM_SELF_TEST";
+
 /// A log that holds no message for this long is silent: in a flight every process sends a HEARTBEAT each half second.
 inline constexpr Duration kLogSilence{1'000'000};
 

@@ -110,9 +110,9 @@ class Explainer {
       waiting += fmt::format("{}{} ({})", waiting.empty() ? "" : ", ", process, complaint.text);
     }
     std::string why = end_.outcome == FlightOutcome::Failed && !end_.detail.empty() ? end_.detail : waiting;
-    if (waiting.find("newer inputs") != std::string::npos)
+    if (why.find("newer inputs") != std::string::npos)
       why += "; a faster sensor (latency_s) or a larger planner.stale_after_s would help";
-    if (waiting.find("obstacle observations") != std::string::npos)
+    if (why.find("obstacle observations") != std::string::npos)
       why += "; a detector or a sensor of the scenario (simulator.sensor.mode) must send them";
     return {Cause::NeverBegan,
             "the flight never began: " + (why.empty() ? "no plan was requested" : why) + overload_text()};

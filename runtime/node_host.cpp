@@ -119,8 +119,21 @@ std::string NodeHost::report_drift() {
   return text;
 }
 
+void NodeHost::log_long_wait(const NodeHealth& health) {
+  if (health.state != ProcessState::Waiting) {
+    waits_since_.reset();
+    logged_wait_ = false;
+    return;
+  }
+  if (!waits_since_) waits_since_ = bus_.clock().now();
+  if (logged_wait_ || bus_.clock().now() - *waits_since_ < kLongWait) return;
+  logged_wait_ = true;
+  log::info("has been waiting for {:.0f} s: {}", kLongWait.seconds(), health.waiting_for);
+}
+
 void NodeHost::publish_heartbeat() {
   const NodeHealth health = node_.health();
+  log_long_wait(health);
   Heartbeat message;
   message.process = process_;
   message.build_id = build_id();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/scenario/scenario.h"
@@ -70,6 +71,9 @@ int run_process(int argc, char** argv, const ProcessDescription& description, co
 /// If the system's clock has been set by more than this, the drift is reported on HEARTBEAT and in the log.
 inline constexpr Duration kReportedDrift{10'000};
 
+/// If a node has been waiting for this long, the log says once for what.
+inline constexpr Duration kLongWait{5'000'000};
+
 /// Least time between heartbeats that answer new processes.
 inline constexpr Duration kHeartbeatSpacing{50'000};
 
@@ -101,13 +105,15 @@ class NodeHost {
   void publish_heartbeat();
   void publish_configuration();
   std::string report_drift();
+  void log_long_wait(const NodeHealth& health);
   Bus& bus_;
   Node& node_;
   std::string process_, yaml_;
   ClockEchoes echoes_;
   UTime last_heartbeat_{}, next_heartbeat_{}, next_configuration_{};
   std::int64_t stepped_deliveries_ = 0;
-  bool reported_finished_ = false;
+  bool reported_finished_ = false, logged_wait_ = false;
+  std::optional<UTime> waits_since_;
   Duration reported_drift_{};
 };
 

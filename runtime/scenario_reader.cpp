@@ -248,13 +248,13 @@ UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
   if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));
   section.finish();
   const Box places = places_within(uav.flight_box, body_box(uav.body));
-  const auto check = [&](const char* key, const Vec3& p) {
+  const auto check = [&, low = places.min(), high = places.max()](const char* key, const Vec3& p) {
     if (places.contains(p)) return;
-    const Vec3 &low = places.min(), &high = places.max();
-    throw section.error(key,
-                        fmt::format("[{}, {}, {}] is outside the flight box, body included (limits [{}, {}, {}] to "
-                                    "[{}, {}, {}])",
-                                    p.x(), p.y(), p.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+    throw section.error(
+        key, fmt::format("[{}, {}, {}]{} is outside the flight box, body included (limits [{}, {}, {}] to "
+                         "[{}, {}, {}])",
+                         p.x(), p.y(), p.z(), section.has(key) ? "" : ", its default,", low.x(), low.y(), low.z(),
+                         high.x(), high.y(), high.z()));
   };
   for (const auto& [from, to] : routes) {
     check(section.has("routes") ? "routes" : "start", from);

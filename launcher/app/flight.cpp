@@ -53,6 +53,14 @@ std::string last_line(const std::string& text) {
   return lines.substr(lines.rfind('\n') + 1);
 }
 
+/// The last error in a process's log, else its last line.
+std::string last_words(const std::string& log) {
+  const std::string::size_type error = log.rfind(" error: ");
+  if (error == std::string::npos) return last_line(log);
+  const std::string::size_type begin = log.rfind('\n', error) + 1;
+  return log.substr(begin, log.find('\n', error) - begin);
+}
+
 /// The number that an override gives a key, if there is one.
 std::optional<std::int64_t> overridden(const LaunchOptions& options, const std::string& key) {
   std::optional<std::int64_t> number;
@@ -133,7 +141,7 @@ std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event)
   if (event.process.empty()) return event.code;
   const bool is_monitor = event.process == kMonitor, has_summary = fs::exists(record / "summary.json");
   if (is_monitor ? !has_summary && event.code != kExitIncomplete : event.code != 0) {
-    const std::string words = last_line(read_text(record / (event.process + ".log")));
+    const std::string words = last_words(read_text(record / (event.process + ".log")));
     give_up(record, fmt::format("{} ended with exit code {}: {}", event.process, event.code, words));
     std::error_code error;
     if (!fs::exists(record / "failure", error)) return kExitFailed;  // the monitor cannot learn of it

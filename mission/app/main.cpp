@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     setup.folder = folder;
     setup.system = config.system;
     setup.fence_uploads = config.fence_uploads;
+    setup.start_on_upload = config.start_on_upload;
     if (!url.empty()) setup.link = tern::value_or_throw(tern::mavlink::open_link(url), "--connect ");
     if (url.empty() || !config.file.empty()) setup.mission = load_mission(context.scenario, config);
     return std::make_unique<MissionNode>(context.bus, std::move(setup));

@@ -12,6 +12,9 @@ MissionConfig read_mission_config(ConfigSection section) {
   config.fence_uploads = section.flag("fence_uploads", config.fence_uploads,
                                       "a ground station may upload fences: tern-mapper publishes no map before it has "
                                       "heard FENCES of tern-mission");
+  config.start_on_upload = section.flag("start_on_upload", config.start_on_upload,
+                                        "an uploaded mission begins without an order, 3 s after the last upload and "
+                                        "once its fences are in force");
   section.read(config.progress);
   return config;
 }

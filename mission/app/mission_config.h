@@ -13,6 +13,7 @@ struct MissionConfig {
   std::string file;  ///< as written in the scenario; "": none
   std::uint8_t system = 1;
   bool fence_uploads = false;
+  bool start_on_upload = false;
   ProgressConfig progress;
 };
 

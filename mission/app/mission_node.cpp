@@ -49,6 +49,7 @@ MissionNode::MissionNode(Bus& bus, MissionSetup setup)
       is_ordered_ = record_.read(*setup_.mission).has_value();
       log::info("has the mission that was uploaded before the restart; it was {}",
                 is_ordered_ ? "started" : "not started");
+      if (setup_.start_on_upload && !is_ordered_) starts_itself_at_ = listens_until_ + kUploadPause;
     }
   }
   if (!setup_.mission) return;
@@ -136,6 +137,7 @@ std::string MissionNode::take_upload(const std::vector<Item>& items) {
   set_mission(std::move(mission));
   is_ordered_ = false;
   is_fresh_ = is_uploaded_ = true;
+  if (setup_.start_on_upload) starts_itself_at_ = bus_.clock().now() + kUploadPause;
   return "";
 }
 
@@ -146,6 +148,7 @@ bool MissionNode::is_flown() const {
 std::string MissionNode::take_fences(const std::vector<mavlink::MissionItemInt>& items) {
   if (is_flown()) return fences_->refuse(kIsFlown);
   if (!map_) return fences_->refuse(kNoMap);
+  if (starts_itself_at_ != kNever) starts_itself_at_ = bus_.clock().now() + kUploadPause;
   return fences_->take(items, *map_, progress_ ? &progress_->mission() : nullptr, place());
 }
 
@@ -159,6 +162,7 @@ void MissionNode::forget_mission() {
   record_.forget();
   progress_.reset();
   is_ordered_ = has_started_ = false;
+  starts_itself_at_ = kNever;
   if (station_) station_->set_mission({}, setup_.site);
 }
 
@@ -170,6 +174,7 @@ std::string MissionNode::obey(Order order) {
       if (has_started_) return "the mission has already been started";
       if (std::string why = why_no_start(); !why.empty()) return why;
       is_ordered_ = true;
+      starts_itself_at_ = kNever;
       return "";
     case Order::Pause: return has_started_ && progress_->pause(now) ? "" : "the mission is not being flown";
     case Order::GoOn: return has_started_ && progress_->go_on(now) ? "" : "the mission is not paused";
@@ -180,6 +185,7 @@ std::string MissionNode::obey(Order order) {
 UTime MissionNode::next_wakeup() const {
   if (exit_code_) return kNever;
   UTime next = has_started_ ? progress_->next_wakeup() : std::max(listens_until_, next_hold_);
+  next = std::min(next, starts_itself_at_);
   if (station_) next = std::min(next, station_->next_wakeup());
   if (fences_) next = std::min(next, fences_->next_wakeup());
   return next;
@@ -196,6 +202,7 @@ void MissionNode::step(UTime now) {
       if (station_) station_->say(text);
     }
   }
+  if (now >= starts_itself_at_) start_itself(now);
   if (!has_started_ && map_ && state_ && now >= listens_until_) begin(now);
   if (!has_started_) {
     if (now >= listens_until_ && !map_) listens_until_ = now + kListen;
@@ -206,6 +213,14 @@ void MissionNode::step(UTime now) {
     if (const auto& limit = progress_->speed_limit()) bus_.publish(channels::kSpeedLimit, *limit);
     bus_.publish(channels::kGoal, *goal);
   }
+}
+
+/// Tries again after a while if the fences do not allow it.
+void MissionNode::start_itself(UTime now) {
+  const std::string why = obey(Order::Start);
+  if (why.empty()) return;
+  starts_itself_at_ = now + kUploadPause;
+  station_->say("the mission does not start yet: " + why);
 }
 
 /// A restarted process that waits for its fences leaves the vehicle the goal that it has.

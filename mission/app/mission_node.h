@@ -31,6 +31,7 @@ struct MissionSetup {
   std::unique_ptr<mavlink::Link> link;  ///< to a ground station; null: none
   std::uint8_t system = 1;              ///< MAVLink's id of the vehicle
   bool fence_uploads = false;           ///< fences are uploaded as well, and the mapper waits for them
+  bool start_on_upload = false;         ///< an uploaded mission needs no order to start
 };
 
 /// Connects Progress to the bus. Receives UAV_STATE, VEHICLE_STATUS, GOAL, SEMANTIC_MAP and PREDICTIONS; publishes
@@ -42,6 +43,9 @@ struct MissionSetup {
 /// 3. Without a mission it sends a goal to hold, until one is uploaded and started.
 /// 4. It sends goals until the mission is done or has failed. HEARTBEAT then says Finished or Failed, and the last goal
 ///    is repeated until the process is ended.
+///
+/// With start_on_upload an uploaded mission starts without an order, kUploadPause after the last upload: fences are
+/// uploaded after it. If they do not allow it yet, it starts later.
 ///
 /// Fences are not changed while a mission is flown, and no mission begins before they are in force.
 ///
@@ -75,6 +79,7 @@ class MissionNode final : public Node {
   /// Judges the steps by the first map.
   void judge_steps();
   void begin(UTime now);
+  void start_itself(UTime now);
   void start(UTime now);
   void hold(UTime now);
   void note();
@@ -96,6 +101,7 @@ class MissionNode final : public Node {
   std::optional<Goal> heard_;  ///< the goal with the largest id, before the start
   std::optional<Goal> hold_;   ///< the goal while there is no mission
   UTime listens_until_, next_hold_;
+  UTime starts_itself_at_ = kNever;
   bool is_fresh_ = false;  ///< uploaded to this process: an older record is not its own
   std::optional<int> exit_code_;
   std::string noted_;  ///< the state that was recorded last
@@ -104,5 +110,7 @@ class MissionNode final : public Node {
 
 /// The vehicle repeats its goal every second.
 inline constexpr Duration kListen{1'500'000};
+/// From the last upload to a start without an order.
+inline constexpr Duration kUploadPause{3'000'000};
 
 }  // namespace tern::mission

@@ -16,6 +16,7 @@ namespace {
 
 constexpr Duration kPollPeriod{2'000}, kClockPeriod{10'000};
 constexpr Duration kReportPeriod{5'000'000};
+constexpr Duration kAlone{10'000'000};
 constexpr std::size_t kMostTrouble = 900;  // bytes; HEARTBEAT takes kMaxWaitingText
 
 std::vector<std::string> names_of(const std::vector<ros::FeedTopic>& topics) {
@@ -95,7 +96,8 @@ Ros2Node::Ros2Node(Bus& bus, const UavSpec& uav, const Ros2Options& options) try
       outlet_(bus, participant_, names_, sent_by(options, bus.clock())),
       inlet_(bus, participant_, names_, received_by(options), options.in, uav),
       next_(bus.clock().now()),
-      next_report_(next_ + kReportPeriod) {
+      next_report_(next_ + kReportPeriod),
+      alone_until_(next_ + kAlone) {
   log::info("ROS 2: domain {} on {}", options.domain, options.network.empty() ? "this host" : options.network);
 } catch (const std::runtime_error& error) {
   throw ConfigError(error.what());
@@ -108,6 +110,15 @@ void Ros2Node::step(UTime now) {
   if (now >= next_clock_) {
     next_clock_ = now + kClockPeriod;
     outlet_.write_clock(now);
+  }
+  if (now >= alone_until_) {
+    alone_until_ = kNever;
+    if (!participant_.has_met_others()) {
+      log::info(
+          "has met no ROS node that reads or writes its topics for {:.0f} s: do all shells have the same domain, "
+          "and ROS_LOCALHOST_ONLY=1 or ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (or --interface here)?",
+          kAlone.seconds());
+    }
   }
   if (now < next_report_) return;
   next_report_ = now + kReportPeriod;

@@ -45,6 +45,7 @@ class Ros2Node final : public Node {
   Outlet outlet_;
   Inlet inlet_;
   UTime next_, next_clock_, next_report_;
+  UTime alone_until_;    ///< when the log says that nobody was met; kNever: it is said, or somebody was met
   std::string trouble_;  ///< of the last report
 };
 

@@ -137,6 +137,20 @@ bool Participant::has_readers(int writer) const {
   return status.current_count > 0;
 }
 
+bool Participant::has_met_others() const {
+  const auto has_met_writer = [](dds_entity_t reader) {
+    dds_subscription_matched_status_t status{};
+    dds_get_subscription_matched_status(reader, &status);
+    return status.total_count > 0;
+  };
+  const auto has_met_reader = [](dds_entity_t writer) {
+    dds_publication_matched_status_t status{};
+    dds_get_publication_matched_status(writer, &status);
+    return status.total_count > 0;
+  };
+  return std::ranges::any_of(impl_->readers, has_met_writer) || std::ranges::any_of(impl_->writers, has_met_reader);
+}
+
 void Participant::write(int writer, const std::string& cdr) {
   const auto k = static_cast<std::size_t>(writer);
   if (dds_write(impl_->writers[k], &cdr) != DDS_RETCODE_OK) ++impl_->unsent[k];

@@ -47,6 +47,8 @@ class Participant {
   int add_reader(const DdsTopic& topic);
 
   [[nodiscard]] bool has_readers(int writer) const;
+  /// True if an end of another participant has ever matched one of these.
+  [[nodiscard]] bool has_met_others() const;
   /// Sends a message. @param cdr  with its header of four bytes
   void write(int writer, const std::string& cdr);
   /// Returns the oldest message that waits. A reader keeps the newest ones, as many as its depth.

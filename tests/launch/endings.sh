@@ -104,6 +104,18 @@ a_flight_whose_folder_is_lost_ends_with_a_summary() {
   expect "a summary" has_text "\"detail\": \"$work/lost: the reason could not be written\"" "$work/s.json"
 }
 
+a_process_that_refuses_is_quoted_by_its_error() {
+  make_stand_ins
+  # shellcheck disable=SC2028  # printf's format
+  echo "printf 'info: started\\n00:00 tern-planner error: step 4 is in fence\\n00:00 tern-planner info: exits\\n'; exit 2" \
+    >>"$work/refusal"
+  { echo '#!/bin/sh' && cat "$work/refusal"; } >"$work/bin/tern-planner"
+  echo "until [[ -e '$work/refused/failure' ]]; do read -rt 0.1 <> <(:) || true; done; exit 3" >"$work/at_end"
+  [[ $(launch --record="$work/refused") == 3 ]] || fail "exit code: $(cat "$work/out")"
+  expect "its error" has_text "tern-planner ended with exit code 2: 00:00 tern-planner error: step 4 is in fence" \
+    "$work/refused/failure"
+}
+
 # It is asked to end while the bridge waits for a restart, or is about to crash again.
 a_bridge_that_has_crashed_leaves_a_warning() {
   mkdir "$work/bin"

@@ -51,6 +51,7 @@ class MissionNodeTest : public ::testing::Test {
       setup.uav.flight_box = Box(Vec3::Zero(), Vec3(10, 10, 3));
       if (has_folder_) setup.folder = folder_.file("");
       setup.fence_uploads = takes_fences_;
+      setup.start_on_upload = starts_on_upload_;
       setup.link = std::make_unique<StationLink>(cable_, sent_);
       return std::make_unique<MissionNode>(bus, std::move(setup));
     });
@@ -157,7 +158,7 @@ class MissionNodeTest : public ::testing::Test {
   std::optional<Goal> newest_;
   std::vector<Vec3> flown_to_;
   std::vector<std::vector<Fence>> heard_;  ///< FENCES
-  bool takes_fences_ = false, maps_fences_ = true, has_folder_ = true;
+  bool takes_fences_ = false, maps_fences_ = true, has_folder_ = true, starts_on_upload_ = false;
   int ticks_ = 0;
 };
 
@@ -333,6 +334,23 @@ TEST_F(FencedMission, UploadedFencesArePublishedAndAMissionBeginsOnceTheMapHolds
   EXPECT_THAT(said(), ::testing::HasSubstr("1 uploaded fence is in force"));
   order_start();
   run(5.0);
+  EXPECT_EQ(flown_to_.size(), 3u);
+}
+
+TEST_F(FencedMission, StartOnUploadWaitsForTheFencesThatFollow) {
+  starts_on_upload_ = true;
+  start();
+  run(2.0);
+  upload(three_steps());
+  run(kUploadPause.seconds() - 0.5);
+  upload_fences(kOnStepB);
+  run(2.0 * kUploadPause.seconds());
+  EXPECT_TRUE(flown_to_.empty()) << "refused fences keep it on the ground";
+  EXPECT_THAT(said(), ::testing::HasSubstr("the mission does not start yet: "));
+  upload_fences(kPond);
+  run(kUploadPause.seconds() - 0.5);
+  EXPECT_TRUE(flown_to_.empty());
+  run(2.0 * kUploadPause.seconds() + 5.0);
   EXPECT_EQ(flown_to_.size(), 3u);
 }
 

@@ -379,6 +379,14 @@ TEST(FlightCause, OfAFlightThatNeverBeganNamesWhatItWaitedFor) {
   EXPECT_EQ(waiting.timeout().sentence, "the flight never began: tern-mapper (its map)");
 }
 
+TEST(FlightCause, ARefusalGetsNoHintOfWhatOthersWaitFor) {
+  Story story;
+  story.beat("tern-predictor", 1.0, ProcessState::Waiting, "obstacle observations");
+  EXPECT_THAT(story.timeout().sentence, HasSubstr("a detector or a sensor of the scenario"));
+  EXPECT_EQ(explain(story.evidence, {FlightOutcome::Failed, "tern-mission: a photo"}).sentence,
+            "the flight never began: tern-mission: a photo");
+}
+
 TEST(FlightCause, OfAVehicleOnItsWayIsHowMuchMoreTimeItNeeds) {
   Story story;
   story.fly(0, 10, 0.5);

@@ -50,6 +50,35 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
   EXPECT_EQ(reports[0].hash, configuration_hash("x: 1\n"));
 }
 
+/// A node that waits until kStart + 7 s, and again from 20 s on.
+class LongWaiter final : public Node {
+ public:
+  explicit LongWaiter(Bus& bus) : bus_(bus) {}
+  [[nodiscard]] UTime next_wakeup() const override { return kNever; }
+  void step(UTime /*now*/) override {}
+  [[nodiscard]] NodeHealth health() const override {
+    const double s = (bus_.clock().now() - kStart).seconds();
+    return s < 7.0 || s >= 20.0 ? NodeHealth{ProcessState::Waiting, "a map"} : NodeHealth{ProcessState::Ready, ""};
+  }
+
+ private:
+  Bus& bus_;
+};
+
+TEST(NodeHost, LogsOnceForWhatItHasBeenWaitingLong) {
+  VirtualRunner runner(kStart);
+  runner.start("tern-test", [](Bus& bus) { return std::make_unique<LongWaiter>(bus); });
+  const auto said = [&](double until_s) {
+    ::testing::internal::CaptureStdout();
+    runner.run(kStart + Duration::from_seconds(until_s));
+    return ::testing::internal::GetCapturedStdout();
+  };
+  EXPECT_EQ(said(4.9).find("waiting"), std::string::npos);
+  EXPECT_NE(said(5.6).find("has been waiting for 5 s: a map"), std::string::npos);
+  EXPECT_EQ(said(24.9).find("waiting"), std::string::npos);
+  EXPECT_NE(said(25.6).find("has been waiting for 5 s: a map"), std::string::npos);
+}
+
 /// A node with notes of its own.
 class Noter final : public Node {
  public:

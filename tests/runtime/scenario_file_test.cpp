@@ -231,6 +231,8 @@ TEST(ScenarioFile, TheWholeBodyMustStartAndEndInsideTheFlightBox) {
       error_of("uav:\n  start: [0, 0, 1]\n  goal: [9, 0, 1]\n" + box),
       "a.yaml:3: uav.goal: [9, 0, 1] is outside the flight box, body included (limits [-0.5, -0.5, 0.5] to [8.5, 0.5, "
       "3.5])");
+  EXPECT_THAT(error_of("uav:\n  start: [0, 0, 1]\n" + box),
+              ::testing::HasSubstr("uav.goal: [75, -1, 1], its default, is"));
   EXPECT_EQ(error_of("uav:\n  flight_box:\n    min: [0, 0, 0]\n    max: [1, 0, 1]\n"),
             "a.yaml:4: uav.flight_box.max: must be greater than min on every axis");
 }

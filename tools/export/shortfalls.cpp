@@ -7,7 +7,7 @@ namespace tern::exporting {
 std::string shortfalls(const LogContents& contents) {
   std::string text;
   for (const auto& [name, channel] : contents.channels) {
-    if (channel.foreign) text += fmt::format("{}: left out: not a channel of Tern\n", name);
+    if (channel.foreign && name != kLcmSelfTest) text += fmt::format("{}: left out: not a channel of Tern\n", name);
     if (const std::int64_t refused = channel.refused_total(); refused > 0) {
       text += fmt::format("{}: {} of {} messages left out, damaged or of another version\n", name, refused,
                           channel.messages);

@@ -21,8 +21,6 @@ constexpr const char* kRefusals[kRejections] = {
     "of a wrong length",          "of another version",      "with a count out of range",  "with a number out of range",
     "with an unknown enumerator", "with times out of order", "that contradict themselves", "from the future",
     "of another sender",          "that came twice",         "without a valid tag"};
-/// LCM's own message at its start.
-constexpr char kLcmSelfTest[] = "LCM_SELF_TEST";
 /// Most lines about the first difference, and about missing inputs.
 constexpr std::size_t kMaxLines = 12;
 

@@ -129,6 +129,7 @@ class Scene {
   [[nodiscard]] double body_radius() const;
   /// Returns true if the body centred at p is inside the flight box, or before the first request.
   [[nodiscard]] bool has_room_at(const Vec3& p) const;
+  [[nodiscard]] bool has_request() const { return request_.has_value(); }
   /// Returns allowed_ms() by the system's clock, which measures the times in `timing`.
   [[nodiscard]] double allowed_system_ms() const { return allowed_ms() / pace_; }
   /// Returns the time from the request to its deadline for the answer that `timing` describes, ms on the flight's

@@ -37,8 +37,8 @@ async function eventually(what, holds) {
 }
 
 /** A client that has the server's channels; `newest` is the newest message of each topic, `statuses` what it was told. */
-async function connect(subprotocol = 'foxglove.sdk.v1') {
-  const ws = new WebSocket(URL_, [subprotocol]);
+async function connect(subprotocol = 'foxglove.sdk.v1', url = URL_) {
+  const ws = new WebSocket(url, [subprotocol]);
   sockets.push(ws);
   const client = new FoxgloveClient({ ws });
   const c = { ws, client, channels: new Map(), subscriptions: new Map(), newest: new Map(), counts: new Map(), statuses: [] };
@@ -128,6 +128,27 @@ test('a goal is published as CDR and as JSON, and reaches the bus', async () => 
   }
   assert(c.statuses.every(({ level }) => level === 0), JSON.stringify(c.statuses));
   c.client.close();
+});
+
+test('a goal at the ground of the 3D panel is refused before the first request, or flown at the height of the vehicle', async () => {
+  const fox = async (port, ...options) => {
+    start('tern-viewer', '--listen', `127.0.0.1:${port}`, '--foxglove', `${port + 1}`, '--allow-goals', ...options);
+    await eventually('it listens', () => programs.at(-1).said.includes('Foxglove connects to'));
+    return connect('foxglove.sdk.v1', `ws://127.0.0.1:${port + 1}`);
+  };
+  const send = (c) => c.client.sendMessage(c.client.advertise({ topic: '/goal_pose', encoding: 'json', schemaName: 'geometry_msgs/msg/PoseStamped' }),
+    json(pose(5.5, 0.5, 0)));
+  const boxed = await fox(8800, '--channel-suffix', '_quiet', '--set', 'uav.start=[0, 0, 1]', '--set', 'uav.goal=[6, 0, 1]',
+    '--set', 'uav.flight_box.min=[-9, -9, 0]', '--set', 'uav.flight_box.max=[9, 9, 4]'); // it hears no request
+  send(boxed);
+  await eventually('it is refused', () => boxed.statuses.some(({ message }) => /goal refused: .*flight box/.test(message)));
+  const keeping = await fox(8810, '--goal-height', 'keep');
+  keeping.subscribe('/odom');
+  await eventually('the vehicle is known', () => keeping.newest.has('/odom'));
+  const height = keeping.newest.get('/odom').value.pose.pose.position.z;
+  send(keeping);
+  await eventually('it is sent at that height', () => scene.said.includes(`5.500 0.500 ${height.toFixed(3)}`));
+  for (const { client } of [boxed, keeping]) client.close();
 });
 
 test('a goal that is none is refused in words, and changes nothing', async () => {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <utility>
 
+#include "core/world/flyable.h"
 #include "messages/codec.h"
 #include "runtime/config.h"
 #include "runtime/log.h"
@@ -176,12 +177,16 @@ void ViewerNode::execute(std::int64_t client, const GoalCommand& command, UTime 
   server_->reply(client, json.end_object().end_object().take());
 }
 
+/// Before the first request the box is that of the scenario.
+bool ViewerNode::has_room_at(const Vec3& p) const {
+  if (scene_.has_request()) return scene_.has_room_at(p);
+  return centre_box(scenario_.uav.flight_box, scenario_.uav.body).contains(p);
+}
+
 std::optional<std::string> ViewerNode::send_goal(const GoalCommand& command, UTime now) {
   if (player_) return "a log is played";
   if (!options_.allow_goals) return "tern-viewer was started without --allow-goals";
-  if (command.mode == GoalMode::Go && !scene_.has_room_at(command.position)) {
-    return "the body would leave the flight box";
-  }
+  if (command.mode == GoalMode::Go && !has_room_at(command.position)) return "the body would leave the flight box";
   Goal goal;
   goal.id = page_goal_.next_id(scene_);
   goal.mode = command.mode;
@@ -195,7 +200,8 @@ std::optional<std::string> ViewerNode::send_goal(const GoalCommand& command, UTi
 
 void ViewerNode::take_foxglove_goals(UTime now) {
   for (const FoxglovePublished& published : foxglove_->server().take_published()) {
-    const auto position = foxglove::goal_position(published.channel, published.payload, ros::Frames().world);
+    auto position = foxglove::goal_position(published.channel, published.payload, ros::Frames().world);
+    if (position && options_.keep_height && scene_.state()) position->z() = scene_.state()->motion.p.z();
     const auto refusal = position ? send_goal({GoalMode::Go, *position}, now) : std::optional(position.error().message);
     const auto level = refusal ? foxglove::Level::Error : foxglove::Level::Info;
     foxglove_->server().tell(published.client, level, refusal ? "goal refused: " + *refusal : "goal sent");

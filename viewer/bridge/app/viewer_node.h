@@ -27,6 +27,7 @@ struct ViewerOptions {
   std::vector<std::string>
       allow_hosts;               ///< host names, in addition to loopback, by which browsers may address the bridge
   bool allow_goals = false;      ///< pages and Foxglove's clients may send goals
+  bool keep_height = false;      ///< a goal of Foxglove gets the vehicle's height
   std::string log;               ///< log to play; empty: live
   std::string export_to;         ///< file for --export; empty: none
   std::string video_to;          ///< file for --video; empty: none
@@ -66,6 +67,7 @@ class ViewerNode final : public Node {
   void execute(std::int64_t client, const SpeedCommand& speed, UTime now);
   void execute(std::int64_t client, const GoalCommand& goal, UTime now);
   void jump();
+  [[nodiscard]] bool has_room_at(const Vec3& p) const;
   /// Sends a goal, or returns why not.
   std::optional<std::string> send_goal(const GoalCommand& command, UTime now);
   void take_foxglove_goals(UTime now);
