@@ -204,7 +204,7 @@ void ExecutorNode::on_status(const VehicleStatus& status) {
 
 std::string ExecutorNode::reason_not_to_follow(UTime now) const {
   if (!lost_.empty()) return lost_;
-  if (!status_.following) return status_.why_not;
+  if (!status_.following && !status_.why_not.empty()) return status_.why_not;  // without a reason none has come yet
   if (const auto trouble = inputs_.trouble(now)) return trouble->first + " is " + trouble->second;
   if (following_ || !executor_) return "";
   return guard_.check_start(measured_, uav_.start, has_flown_).value_or("");

@@ -30,7 +30,7 @@ constexpr Duration kResumeDelay{50'000};
 constexpr Duration kEcho{300'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
-constexpr Duration kCountdown{300'000};
+constexpr Duration kCountdown{300'000}, kAtOnce{1'000};
 /// An external vehicle's truth may be this late at the end of a flight's time.
 constexpr Duration kTruthLate{1'000'000};
 constexpr const char* kMapperProcess = "tern-mapper";
@@ -164,7 +164,9 @@ std::string SimulatorNode::missing(UTime now) const {
 void SimulatorNode::wait_for_processes(UTime now) {
   const std::string missing = this->missing(now);
   if (missing.empty()) {
-    world_zero_ = whole_ms(now + (config_.declare ? kCountdown : kLookAroundTime));
+    // A vehicle that others both move and command may depart at once, so its flight begins at once.
+    const bool may_depart = config_.external && !config_.send_goal;
+    world_zero_ = whole_ms(now + (may_depart ? kAtOnce : config_.declare ? kCountdown : kLookAroundTime));
     next_status_ = std::min(next_status_, *world_zero_);
     broadcast_.start(*world_zero_, now);
     sensors_.start(*world_zero_, now);

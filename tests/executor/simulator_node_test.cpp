@@ -210,6 +210,28 @@ TEST(SimulatorNode, WorldTimeStartsAtAWholeMillisecondAfterTheLastProcessIsReady
   EXPECT_EQ(flight.requests.front().t_s, zero + Duration{75'000});
 }
 
+TEST(SimulatorNode, AVehicleThatOthersMoveAndCommandMayDepartAtOnceSoWorldTimeStartsAtOnce) {
+  const auto zero_after = [](bool sends_goal) {
+    SimulatorConfig config;
+    config.external = true;
+    config.send_goal = sends_goal;
+    const Scenario scenario = empty_scenario();
+    Flight flight(scenario, config);
+    const UTime begin = flight.runner.now();
+    flight.start_planner();
+    for (int k = 0; k < 50; ++k) {
+      UavState state;
+      state.at = flight.runner.now();
+      state.motion.p = scenario.uav.start;
+      flight.runner.observer().publish(channels::kUavState, state);
+      flight.fly(Duration{20'000});
+    }
+    return flight.simulator->world_zero().value_or(kNever) - begin;
+  };
+  EXPECT_LT(zero_after(true), kSecond);
+  EXPECT_EQ(zero_after(true) - zero_after(false), Duration{299'000});
+}
+
 TEST(SimulatorNode, UntilWorldZeroEverythingRests) {
   Flight flight(with_obstacle(empty_scenario(), far_trefoil()));
   flight.fly(kSecond * 2);

@@ -122,6 +122,15 @@ TEST_F(VehicleTrouble, WithoutAStatusNothingIsRequested) {
   EXPECT_GT(setpoints_, before + 50) << "the committed trajectory is flown to its end, and rested at";
 }
 
+TEST_F(VehicleTrouble, BeforeTheFirstStatusNothingIsRequested) {
+  sends_status_ = false;
+  EXPECT_EQ(requests_in(2.0), 0u);
+  EXPECT_EQ(farthest_, 0.0);
+  sends_status_ = true;
+  fly(0.3);
+  EXPECT_GT(requests_in(1.0), 10u);
+}
+
 TEST_F(VehicleTrouble, AStateThatIsOldIsNoState) {
   fly(1.0);
   state_age_ = Duration{2'000'000};
