@@ -61,6 +61,7 @@ mader_camera_lidar mader_two_cameras 100 $set $both
 blind_corner_camera_lidar blind_corner 4 $set $both
 blind_corner_passive blind_corner 4 $set $both --set planner.unseen=passive
 sando_camera_along sando_camera 200 $set planner.heading=along
+sando_camera_lidar_along sando_camera_lidar 200 $set planner.heading=along
 sando_camera_front_rear sando_camera 200 $set simulator.sensors=[$camera,{\"type\":\"camera\",\"yaw_deg\":180}]
 sando_camera_lidar_blocks sando_camera_lidar 200 $set simulator.sensors=[{\"type\":\"camera\",\"noise_block\":5},$lidar]
 sando_camera_lidar_body sando_camera_lidar 200 $set simulator.sensors=[{\"type\":\"camera\",\"mount\":\"body\"},$lidar]

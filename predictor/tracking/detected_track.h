@@ -19,6 +19,7 @@ struct DetectedTrack {
   const BankFilter* bank = nullptr;
   bool is_stationary = false;  ///< true: no prediction of it is stored
   bool is_coarse = false;      ///< seen with few points (kCoarsePoints)
+  bool is_sighted = false;     ///< a track by sightings
 
   [[nodiscard]] double age_s(UTime at) const { return (at - born).seconds(); }
 };

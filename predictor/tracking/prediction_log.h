@@ -17,6 +17,7 @@
 #include "predictor/tracking/model_weights.h"
 #include "predictor/tracking/scored_interval.h"
 #include "predictor/tracking/smoothed_position.h"
+#include "predictor/tracking/speed_record.h"
 
 namespace tern {
 
@@ -34,6 +35,7 @@ struct StoredPrediction {
   ModelPredictions models;       ///< each model's own prediction, for ModelWeights
   LearntInput learnt_input;      ///< the regressors of a sample, for LearntModel
   bool is_coarse = false;        ///< DetectedTrack::is_coarse at the start
+  bool is_sighted = false;       ///< DetectedTrack::is_sighted
   std::size_t next = 0;          ///< the next one of kEvaluatedAhead
 };
 
@@ -41,6 +43,7 @@ struct StoredPrediction {
 struct TrackRecord {
   UTime born, last_stored;
   TrackScores scores;
+  std::optional<TrackSpeed> speed;      ///< over the last span (SpeedRecord::add_sighted)
   std::vector<Measurement> detections;  ///< ascending in time, as far back as smoothed_position() may need them
   std::deque<StoredPrediction> predictions;
   std::vector<UTime> due;  ///< the next evaluation of each prediction, kept apart because predictions are large

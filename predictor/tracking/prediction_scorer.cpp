@@ -50,7 +50,11 @@ void PredictionScorer::evaluate(StoredPrediction& prediction, const Measurement&
                                 TrackRecord& record) {
   const double ahead_s = kEvaluatedAhead[prediction.next];
   const MixturePrediction& mixture = prediction.mixture[prediction.next];
-  if (ahead_s == kSpeedSpan) speeds_.add((truth.z - prediction.position) / kSpeedSpan, id);
+  if (ahead_s == kSpeedSpan) {
+    const Vec3 velocity = (truth.z - prediction.position) / kSpeedSpan;
+    prediction.is_sighted ? speeds_.add_sighted({prediction.at, velocity}, id, record.speed)
+                          : speeds_.add(velocity, id);
+  }
 
   const double own = margin_for(mixture, truth, ahead_s);
   const double score = own > 0.0 ? std::min(own, exchange_.margin(prediction, truth, record)) : own;
@@ -82,6 +86,7 @@ void PredictionScorer::store_prediction(const DetectedTrack& track, UTime at, Tr
   const Assessment assessed = assessment(track, at, record.scores);
   StoredPrediction& prediction = PredictionLog::store(track, at, record);
   prediction.is_coarse = track.is_coarse;
+  prediction.is_sighted = track.is_sighted;
   prediction.interval = ScoredInterval(assessed.of, calibration(track.is_coarse));
   prediction.models.pool = ModelWeights::pool_of(track, at, record.scores);
   prediction.models.learnt_horizon_s = assessed.weights.learnt_horizon_s;

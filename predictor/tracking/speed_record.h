@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 
+#include "core/base/time.h"
 #include "core/base/types.h"
 #include "predictor/tracking/calibration_prior.h"
 
@@ -20,9 +22,23 @@ inline constexpr std::size_t kMinMovers = 16;
 /// A slower track does not count as moving, m/s.
 inline constexpr double kMinMovingSpeed = 0.5;
 
+/// A track's mean velocity over kSpeedSpan.
+struct TrackSpeed {
+  UTime from;     ///< start of the span
+  Vec3 velocity;  ///< W, m/s
+};
+
 /// The record of all tracks of a flight.
 class SpeedRecord {
  public:
+  /// Takes the velocity of a track by sightings. Such a track may jump to a neighbour. So a speed counts once the track
+  /// has kept it on the same axis over two spans that do not overlap.
+  /// @param last  the track's span before, or nullopt; replaced unless the two overlap
+  void add_sighted(const TrackSpeed& speed, std::int64_t track, std::optional<TrackSpeed>& last) {
+    if (last && (speed.from - last->from).seconds() < kSpeedSpan) return;
+    if (last) add(speed.velocity.cwiseAbs().cwiseMin(last->velocity.cwiseAbs()), track);
+    last = speed;
+  }
   /// @param velocity  mean velocity of a track over kSpeedSpan, W, m/s
   void add(const Vec3& velocity, std::int64_t track) {
     max_axis_speed_ = std::max(max_axis_speed_, velocity.cwiseAbs().maxCoeff());

@@ -279,8 +279,8 @@ Box Tracker::gate_box(const TrackedObject& object, UTime at, const Vec3& varianc
 }
 
 DetectedTrack Tracker::detected_track(const TrackedObject& object) const {
-  return {object.id,       object.born,    object.detections,     object.position,
-          object.variance, &object.moving, is_stationary(object), is_coarse(object)};
+  return {object.id,      object.born,           object.detections, object.position,  object.variance,
+          &object.moving, is_stationary(object), is_coarse(object), object.is_sighted};
 }
 
 void Tracker::settle(const Step& step) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace tern {
 namespace {
 
@@ -29,6 +31,20 @@ TEST(SpeedRecord, IsNeverSlowAfterOneFastTrack) {
   record.add(Vec3(2.0, -2.0, 0.0), 100);
   EXPECT_EQ(record.scene_speed(), SceneSpeed::Any);
   EXPECT_EQ(record.max_axis_speed(), 2.0);
+}
+
+TEST(SpeedRecord, AJumpToANeighbourIsNoSpeed) {
+  const auto at = [](double s) { return UTime{} + Duration::from_seconds(s); };
+  SpeedRecord record = of_walkers(kMinMovers);
+  std::optional<TrackSpeed> last;
+  record.add_sighted({at(0.0), Vec3(1, 0, 0)}, 7, last);
+  for (const double s : {0.25, 0.5}) record.add_sighted({at(s), Vec3(6, 0, 0)}, 7, last);  // two spans share the jump
+  for (const double s : {0.75, 1.0}) record.add_sighted({at(s), Vec3(1, 0, 0)}, 7, last);
+  EXPECT_EQ(record.scene_speed(), SceneSpeed::Slow);
+  record.add_sighted({at(1.5), Vec3(-5, 0, 0)}, 7, last);
+  record.add_sighted({at(2.0), Vec3(4, 0, 0)}, 7, last);
+  EXPECT_EQ(record.scene_speed(), SceneSpeed::Any) << "it was fast for a second";
+  EXPECT_EQ(record.max_axis_speed(), 4.0);
 }
 
 }  // namespace
