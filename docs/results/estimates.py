@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""Flies scenarios on the vehicle's own estimate, and prints their table in Markdown.
+
+  estimates.py fly PROGRAM OUT.csv FIRST LAST [NAME...]  flies seeds FIRST to LAST of the variants (default: all) with PROGRAM, which
+                                                         is tern-campaign; a row of OUT.csv per flight. Flights that it has are not
+                                                         flown again. A flight of each core at a time
+  estimates.py table OUT.csv                             means with 95 % intervals, and ratios in pairs with the variant `off`
+"""
+import concurrent.futures
+import csv
+import json
+import math
+import os
+import pathlib
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RACER = ["simulator.vehicle=quadrotor", "simulator.quadrotor.class=racer"]
+OFF = ["semantics.lambda_attractive=0", "semantics.lambda_repulsive=0"]
+PRICE, PLANNED = "planner.semantics.error_price=20", "planner.heading=planned"
+# world, variant: scenario, settings
+VARIANTS = {
+    ("lake", "off"): ("lake", OFF),
+    ("lake", "λ"): ("lake", []),
+    ("lake", "price"): ("lake", [PRICE]),
+    ("facade", "off"): ("facade", OFF),
+    ("facade", "λ"): ("facade", []),
+    ("facade", "price"): ("facade", [PRICE]),
+    ("hall", "off"): ("hall", OFF),
+    ("hall", "price"): ("hall", [PRICE]),
+    ("hall", "price, heading"): ("hall", [PRICE, PLANNED]),
+    ("paper_attract", "off"): ("paper_attract", RACER + OFF),
+    ("paper_attract", "λ"): ("paper_attract", RACER),
+    ("paper_repel", "off"): ("paper_repel", RACER + OFF),
+    ("paper_repel", "λ"): ("paper_repel", RACER),
+    ("paper_corridor", "known motion"): ("paper_corridor", RACER),
+    ("sando_forest", "known motion"): ("sando_forest", RACER),
+}
+MEASURES = ["end_m", "sigma_end_m", "peak_m", "sigma_peak_m", "anees", "coverage_99", "blind_s", "true_to_goal_m"]
+COLUMNS = ["world", "variant", "seed", "outcome", "detail", "time_s", "way_m", *MEASURES, "version"]
+
+
+def fly(program, world, variant, seed):
+    scenario, settings = VARIANTS[world, variant]
+    with tempfile.TemporaryDirectory() as folder:
+        command = [program, "fly-one", "--world", str(ROOT / "scenarios" / f"{scenario}.yaml"), "--seed", str(seed), "--charge",
+                   "counts", "--folder", folder, "--set", "simulator.estimation=vio"]
+        for setting in settings:
+            command += ["--set", setting]
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        summary = pathlib.Path(folder) / "summary.json"
+        if not summary.exists():
+            raise RuntimeError(f"{' '.join(command)}:\n{run.stderr[-2000:]}")
+        s = json.loads(summary.read_text())
+    estimate = s.get("estimate", {})
+    detail = s.get("detail", "").split(":")[0] if s["outcome"] != "reached" else ""
+    return [world, variant, seed, s["outcome"], detail, s["flight_time_s"], s["path_length_m"],
+            *(estimate.get(measure, "") for measure in MEASURES), s["version"]]
+
+
+def fly_all(program, out, first, last, names):
+    out = pathlib.Path(out)
+    done = {(r["world"], r["variant"], r["seed"]) for r in rows_of(out)} if out.exists() else set()
+    jobs = [(world, variant, seed) for seed in range(first, last + 1) for world, variant in VARIANTS
+            if (not names or world in names) and (world, variant, str(seed)) not in done]
+    with out.open("a", newline="") as file, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        writer = csv.writer(file)
+        if not done:
+            writer.writerow(COLUMNS)
+        for future in concurrent.futures.as_completed([pool.submit(fly, program, *job) for job in jobs]):
+            writer.writerow(future.result())
+            file.flush()
+
+
+def rows_of(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def mean_interval(values):
+    """Mean, and half of its 95 % interval by Student's distribution, for which 1.96 + 2.4/n stands."""
+    n = len(values)
+    half = (1.96 + 2.4 / (n - 1)) * statistics.stdev(values) / math.sqrt(n) if n > 1 else math.nan
+    return statistics.fmean(values), half
+
+
+def ratio_interval(pairs):
+    """The ratio of the means of paired values, with its 95 % bootstrap interval."""
+    rng = random.Random(1)
+    ratios = []
+    for _ in range(2000):
+        drawn = [pairs[rng.randrange(len(pairs))] for _ in pairs]
+        ratios.append(sum(a for a, _ in drawn) / sum(b for _, b in drawn))
+    ratios.sort()
+    return sum(a for a, _ in pairs) / sum(b for _, b in pairs), ratios[50], ratios[1949]
+
+
+def print_table(path):
+    rows = rows_of(path)
+    flights = {}
+    for row in rows:
+        flights.setdefault((row["world"], row["variant"]), {})[int(row["seed"])] = row
+    print("| world, ways by | flights | touched | σ at the goal, m | largest σ, m | error at the end, RMS, m | way, m | ANEES | "
+          "inside the 99 % bound | σ at the goal, largest σ: smaller by |")
+    print("|" + "---|" * 10)
+    for (world, variant) in [key for key in VARIANTS if key in flights]:
+        own = flights[world, variant]
+        number = lambda measure, of=own: [float(row[measure]) for row in of.values() if row[measure]]
+        cells = [f"{world}, {variant}", str(len(own)), str(sum(row["outcome"] == "collision" for row in own.values()))]
+        for measure in ("sigma_end_m", "sigma_peak_m"):
+            cells.append("{:.3f} ± {:.3f}".format(*mean_interval(number(measure))))
+        cells.append(f"{math.sqrt(statistics.fmean(e * e for e in number('end_m'))):.2f}")
+        cells += [f"{statistics.fmean(number('way_m')):.1f}", f"{statistics.fmean(number('anees')):.2f}",
+                  f"{100 * statistics.fmean(number('coverage_99')):.2f} %"]
+        off, factors = flights.get((world, "off")), []
+        if off and variant != "off":
+            both = [seed for seed in own if seed in off and own[seed]["sigma_end_m"] and off[seed]["sigma_end_m"]]
+            for measure in ("sigma_end_m", "sigma_peak_m"):
+                factors.append("{:.2f} [{:.2f}, {:.2f}]".format(
+                    *ratio_interval([(float(off[s][measure]), float(own[s][measure])) for s in both])))
+        print("| " + " | ".join([*cells, ", ".join(factors) or "–"]) + " |")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) >= 6 and sys.argv[1] == "fly":
+        fly_all(sys.argv[2], sys.argv[3], int(sys.argv[4]), int(sys.argv[5]), sys.argv[6:])
+    elif len(sys.argv) == 3 and sys.argv[1] == "table":
+        print_table(sys.argv[2])
+    else:
+        sys.exit(__doc__)
