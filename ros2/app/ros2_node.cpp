@@ -21,6 +21,7 @@ constexpr std::size_t kMostTrouble = 900;  // bytes; HEARTBEAT takes kMaxWaiting
 
 std::vector<std::string> names_of(const std::vector<ros::FeedTopic>& topics) {
   std::vector<std::string> names;
+  names.reserve(topics.size());
   for (const ros::FeedTopic& topic : topics) names.push_back(topic.name);
   return names;
 }
