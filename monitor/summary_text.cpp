@@ -120,6 +120,16 @@ std::string plan_lines(const FlightSummary& s) {
                      s.left_out.plans, s.left_out.max_tracks);
 }
 
+/// Empty without an answer.
+std::string time_lines(const FlightSummary& s) {
+  if (s.requests == 0) return "";
+  const std::string slowed = s.pace == 1.0 ? "" : fmt::format("   by the system's clock, at a pace of {:g}", s.pace);
+  return fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}{}\n", "p50", "p95", "p99", "max", slowed) +
+         row("total", s.replan_ms.total) + row("first answer", s.replan_ms.first_answer) +
+         row("broad phase", s.replan_ms.hulls) + row("search", s.replan_ms.search) +
+         row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
+}
+
 std::string message_lines(const FlightSummary& s) {
   MessageCount all;
   std::string troubled;
@@ -159,12 +169,7 @@ std::string to_text(const FlightSummary& s) {
   if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);
-  const std::string slowed = s.pace == 1.0 ? "" : fmt::format("   by the system's clock, at a pace of {:g}", s.pace);
-  text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}{}\n", "p50", "p95", "p99", "max", slowed);
-  text += row("total", s.replan_ms.total) + row("first answer", s.replan_ms.first_answer) +
-          row("broad phase", s.replan_ms.hulls) + row("search", s.replan_ms.search) +
-          row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
-  text += message_lines(s);
+  text += time_lines(s) + message_lines(s);
   text += fmt::format("  restarts      {}\n", s.restarts);
   for (const auto& [process, number] : s.concurrent) text += fmt::format("  concurrent    {} {}\n", number, process);
   if (!s.log.empty()) text += fmt::format("  log           {}\n", s.log);
