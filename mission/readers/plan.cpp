@@ -64,6 +64,9 @@ Result<std::vector<Item>> parse_plan(std::string_view text) {
   if (short_text(member(*json, "fileType")) != "Plan") return fail("fileType is not \"Plan\"");
   const Json& version = member(*json, "version");
   if (!version.is_number() || version.get<double>() != 1.0) return fail("version is not 1, the only one that is known");
+  if (!member(member(*json, "geoFence"), "breachReturn").is_null()) {
+    return fail("has a breach return point, which cannot be flown to: the vehicle stays inside its fences; remove it");
+  }
   const Json& rally_points = member(member(*json, "rallyPoints"), "points");
   if (rally_points.is_array() && !rally_points.empty()) {
     return fail(fmt::format("has {} rally points, which cannot be flown to: a return leads to uav.start; remove them",

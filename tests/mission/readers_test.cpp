@@ -110,6 +110,14 @@ TEST(MissionFile, RallyPointsAreRefusedByName) {
   EXPECT_THAT(refusal(plan, "a.plan"), HasSubstr("has 1 rally points, which cannot be flown to"));
 }
 
+TEST(MissionFile, ABreachReturnPointIsRefusedByName) {
+  std::string plan = testing::kPlan;
+  const std::string circles = "\"circles\":";
+  ASSERT_NE(plan.find(circles), std::string::npos);
+  plan.replace(plan.find(circles), circles.size(), "\"breachReturn\": [47.3978, 8.5457, 10], " + circles);
+  EXPECT_THAT(refusal(plan, "a.plan"), HasSubstr("has a breach return point, which cannot be flown to"));
+}
+
 TEST(FenceFile, FencesOfAPlanAreRead) {
   const auto fences = parse_fences(testing::kPlan, "a.plan").value();
   ASSERT_EQ(fences.size(), 2u);
