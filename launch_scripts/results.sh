@@ -55,9 +55,9 @@ for count in 50 100 200; do
 done
 cameras+="
 corridor_two_cameras corridor_two_cameras 100 200 --charge counts
-corridor_camera_lidar corridor_two_cameras 100 $set $both
+corridor_camera_lidar corridor_two_cameras 100 $set $both --set uav.heading.view=85.2
 mader_two_cameras mader_two_cameras 100 200 --charge counts
-mader_camera_lidar mader_two_cameras 100 $set $both
+mader_camera_lidar mader_two_cameras 100 $set $both --set uav.heading.view=85.2
 blind_corner_camera_lidar blind_corner 4 $set $both
 blind_corner_passive blind_corner 4 $set $both --set planner.unseen=passive
 sando_camera_along sando_camera 200 $set planner.heading=along

@@ -204,7 +204,7 @@ void ExecutorNode::on_status(const VehicleStatus& status) {
 
 std::string ExecutorNode::reason_not_to_follow(UTime now) const {
   if (!lost_.empty()) return lost_;
-  if (!status_.following && !status_.why_not.empty()) return status_.why_not;  // without a reason none has come yet
+  if (is_left()) return status_.why_not;
   if (const auto trouble = inputs_.trouble(now)) return trouble->first + " is " + trouble->second;
   if (following_ || !executor_) return "";
   return guard_.check_start(measured_, uav_.start, has_flown_).value_or("");
@@ -388,7 +388,7 @@ NodeHealth ExecutorNode::health() const {
   if (!lost_.empty()) return {ProcessState::Failed, lost_};
   if (!refused_start_.empty()) return {ProcessState::Waiting, refused_start_};
   if (!executor_) return {ProcessState::Waiting, "a vehicle at rest (UAV_STATE)" + refusal_text()};
-  if (status_.following && !following_) return {ProcessState::Waiting, reason_not_to_follow(now) + refusal_text()};
+  if (!following_ && !is_left()) return {ProcessState::Waiting, reason_not_to_follow(now) + refusal_text()};
   if (const std::string why = map_watch_.trouble(now); !why.empty()) return {ProcessState::Waiting, why};
   if (refused_goal_ && now - refused_goal_->second < kGoalRefusedReported) {
     return {ProcessState::Ready,

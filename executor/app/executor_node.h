@@ -97,6 +97,8 @@ class ExecutorNode final : public Node {
   [[nodiscard]] std::string refusal_text() const;
   /// Whether the vehicle flies the setpoints, as far as is known: it still does while its messages are too old.
   [[nodiscard]] bool is_commanded() const { return following_ || status_.following; }
+  /// Its status says that it does not follow. Before the first status there is no such reason.
+  [[nodiscard]] bool is_left() const { return !status_.why_not.empty(); }
   void refuse_start(const std::string& why);
   void start_following(UTime now);
   void stop_following();

@@ -53,12 +53,11 @@ std::string last_line(const std::string& text) {
   return lines.substr(lines.rfind('\n') + 1);
 }
 
-/// The last error in a process's log, else its last line.
+/// The last line of a process's log, or the one before it says that it exits.
 std::string last_words(const std::string& log) {
-  const std::string::size_type error = log.rfind(" error: ");
-  if (error == std::string::npos) return last_line(log);
-  const std::string::size_type begin = log.rfind('\n', error) + 1;
-  return log.substr(begin, log.find('\n', error) - begin);
+  const std::string::size_type exits = log.rfind(" exits with code ");
+  const std::string::size_type end = exits == std::string::npos ? exits : log.rfind('\n', exits);
+  return last_line(end == std::string::npos ? log : log.substr(0, end));
 }
 
 /// The number that an override gives a key, if there is one.

@@ -220,7 +220,7 @@ void MissionNode::start_itself(UTime now) {
   const std::string why = obey(Order::Start);
   if (why.empty()) return;
   starts_itself_at_ = now + kUploadPause;
-  station_->say("the mission does not start yet: " + why);
+  if (why != std::exchange(no_start_, why)) station_->say("the mission does not start yet: " + why);
 }
 
 /// A restarted process that waits for its fences leaves the vehicle the goal that it has.

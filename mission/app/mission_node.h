@@ -49,7 +49,8 @@ struct MissionSetup {
 ///
 /// Fences are not changed while a mission is flown, and no mission begins before they are in force.
 ///
-/// A restarted process flies an uploaded mission only if it was started, and none that has ended.
+/// A restarted process flies an uploaded mission only if it was started, or with start_on_upload, and none that has
+/// ended.
 class MissionNode final : public Node {
  public:
   MissionNode(Bus& bus, MissionSetup setup);
@@ -102,6 +103,7 @@ class MissionNode final : public Node {
   std::optional<Goal> hold_;   ///< the goal while there is no mission
   UTime listens_until_, next_hold_;
   UTime starts_itself_at_ = kNever;
+  std::string no_start_;  ///< why it did not start itself, as last said
   bool is_fresh_ = false;  ///< uploaded to this process: an older record is not its own
   std::optional<int> exit_code_;
   std::string noted_;  ///< the state that was recorded last

@@ -224,6 +224,10 @@ TEST(SimulatorNode, AVehicleThatOthersMoveAndCommandMayDepartAtOnceSoWorldTimeSt
       state.at = flight.runner.now();
       state.motion.p = scenario.uav.start;
       flight.runner.observer().publish(channels::kUavState, state);
+      VehicleStatus status;
+      status.at = state.at;
+      status.why_not = "on the ground";
+      flight.runner.observer().publish(channels::kVehicleStatus, status);
       flight.fly(Duration{20'000});
     }
     return flight.simulator->world_zero().value_or(kNever) - begin;

@@ -126,6 +126,8 @@ TEST_F(VehicleTrouble, BeforeTheFirstStatusNothingIsRequested) {
   sends_status_ = false;
   EXPECT_EQ(requests_in(2.0), 0u);
   EXPECT_EQ(farthest_, 0.0);
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_EQ(node_->health().waiting_for, "VEHICLE_STATUS is silent so far");
   sends_status_ = true;
   fly(0.3);
   EXPECT_GT(requests_in(1.0), 10u);

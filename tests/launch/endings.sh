@@ -104,10 +104,10 @@ a_flight_whose_folder_is_lost_ends_with_a_summary() {
   expect "a summary" has_text "\"detail\": \"$work/lost: the reason could not be written\"" "$work/s.json"
 }
 
-a_process_that_refuses_is_quoted_by_its_error() {
+a_process_that_refuses_is_quoted_by_its_words_before_its_exit() {
   make_stand_ins
   # shellcheck disable=SC2028  # printf's format
-  echo "printf 'info: started\\n00:00 tern-planner error: step 4 is in fence\\n00:00 tern-planner info: exits\\n'; exit 2" \
+  echo "printf 'info: started\\n00:00 tern-planner error: step 4 is in fence\\n00:00 tern-planner info: exits with code 2\\n'; exit 2" \
     >>"$work/refusal"
   { echo '#!/bin/sh' && cat "$work/refusal"; } >"$work/bin/tern-planner"
   echo "until [[ -e '$work/refused/failure' ]]; do read -rt 0.1 <> <(:) || true; done; exit 3" >"$work/at_end"

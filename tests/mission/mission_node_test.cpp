@@ -354,6 +354,24 @@ TEST_F(FencedMission, StartOnUploadWaitsForTheFencesThatFollow) {
   EXPECT_EQ(flown_to_.size(), 3u);
 }
 
+TEST_F(MissionNodeTest, StartOnUploadOutlivesARestartButNotAClear) {
+  starts_on_upload_ = true;
+  start();
+  run(2.0);
+  upload(three_steps());
+  run(0.5);
+  restart();
+  run(kListen.seconds() + kUploadPause.seconds() + 5.0);
+  EXPECT_EQ(flown_to_.size(), 3u);
+  restart();
+  run(2.0);
+  upload(three_steps());
+  run(0.5);
+  send(mavlink::MissionClearAll{1, 1, kMissionType});
+  run(2.0 * kUploadPause.seconds());
+  EXPECT_TRUE(flown_to_.empty());
+}
+
 TEST_F(FencedMission, NoMissionBeginsWhileTheMapperDoesNotTakeTheFences) {
   maps_fences_ = false;
   start();
