@@ -103,7 +103,7 @@ class MissionNode final : public Node {
   std::optional<Goal> hold_;   ///< the goal while there is no mission
   UTime listens_until_, next_hold_;
   UTime starts_itself_at_ = kNever;
-  std::string no_start_;  ///< why it did not start itself, as last said
+  std::string no_start_;   ///< why it did not start itself, as last said
   bool is_fresh_ = false;  ///< uploaded to this process: an older record is not its own
   std::optional<int> exit_code_;
   std::string noted_;  ///< the state that was recorded last
