@@ -4,7 +4,7 @@
   estimates.py fly PROGRAM OUT.csv FIRST LAST [NAME...]  flies seeds FIRST to LAST of the variants (default: all) with PROGRAM, which
                                                          is tern-campaign; a row of OUT.csv per flight. Flights that it has are not
                                                          flown again. A flight of each core at a time
-  estimates.py table OUT.csv                             means with 95 % intervals, and ratios in pairs with the variant `off`
+  estimates.py table OUT.csv                             means, and ratios in pairs with the variant `off`, with 95 % intervals
 """
 import concurrent.futures
 import csv
@@ -81,22 +81,23 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-def mean_interval(values):
-    """Mean, and half of its 95 % interval by Student's distribution, for which 1.96 + 2.4/n stands."""
-    n = len(values)
-    half = (1.96 + 2.4 / (n - 1)) * statistics.stdev(values) / math.sqrt(n) if n > 1 else math.nan
-    return statistics.fmean(values), half
-
-
-def ratio_interval(pairs):
-    """The ratio of the means of paired values, with its 95 % bootstrap interval."""
+def bootstrap(samples, statistic):
+    """The statistic of the samples, with its 95 % interval by the percentile bootstrap of 2000 draws."""
     rng = random.Random(1)
-    ratios = []
-    for _ in range(2000):
-        drawn = [pairs[rng.randrange(len(pairs))] for _ in pairs]
-        ratios.append(sum(a for a, _ in drawn) / sum(b for _, b in drawn))
-    ratios.sort()
-    return sum(a for a, _ in pairs) / sum(b for _, b in pairs), ratios[50], ratios[1949]
+    drawn = sorted(statistic([samples[rng.randrange(len(samples))] for _ in samples]) for _ in range(2000))
+    return statistic(samples), drawn[50], drawn[1949]
+
+
+def ratio(pairs):
+    return sum(a for a, _ in pairs) / sum(b for _, b in pairs)
+
+
+def numbers(flights, measure):
+    return [float(row[measure]) for row in flights.values() if row[measure]]
+
+
+def root_mean_square(values):
+    return math.sqrt(statistics.fmean(value * value for value in values))
 
 
 def print_table(path):
@@ -107,21 +108,16 @@ def print_table(path):
     print("| world, ways by | flights | touched | σ at the goal, m | largest σ, m | error at the end, RMS, m | way, m | ANEES | "
           "inside the 99 % bound | σ at the goal, largest σ: smaller by |")
     print("|" + "---|" * 10)
-    for (world, variant) in [key for key in VARIANTS if key in flights]:
-        own = flights[world, variant]
-        number = lambda measure, of=own: [float(row[measure]) for row in of.values() if row[measure]]
+    for world, variant in (key for key in VARIANTS if key in flights):
+        own, off = flights[world, variant], flights.get((world, "off"), {})
+        sigmas = ("sigma_end_m", "sigma_peak_m")
         cells = [f"{world}, {variant}", str(len(own)), str(sum(row["outcome"] == "collision" for row in own.values()))]
-        for measure in ("sigma_end_m", "sigma_peak_m"):
-            cells.append("{:.3f} ± {:.3f}".format(*mean_interval(number(measure))))
-        cells.append(f"{math.sqrt(statistics.fmean(e * e for e in number('end_m'))):.2f}")
-        cells += [f"{statistics.fmean(number('way_m')):.1f}", f"{statistics.fmean(number('anees')):.2f}",
-                  f"{100 * statistics.fmean(number('coverage_99')):.2f} %"]
-        off, factors = flights.get((world, "off")), []
-        if off and variant != "off":
-            both = [seed for seed in own if seed in off and own[seed]["sigma_end_m"] and off[seed]["sigma_end_m"]]
-            for measure in ("sigma_end_m", "sigma_peak_m"):
-                factors.append("{:.2f} [{:.2f}, {:.2f}]".format(
-                    *ratio_interval([(float(off[s][measure]), float(own[s][measure])) for s in both])))
+        cells += ["{:.3f} [{:.3f}, {:.3f}]".format(*bootstrap(numbers(own, sigma), statistics.fmean)) for sigma in sigmas]
+        cells += [f"{root_mean_square(numbers(own, 'end_m')):.2f}", f"{statistics.fmean(numbers(own, 'way_m')):.1f}",
+                  f"{statistics.fmean(numbers(own, 'anees')):.2f}", f"{100 * statistics.fmean(numbers(own, 'coverage_99')):.2f} %"]
+        both = [seed for seed in own if seed in off and own[seed]["sigma_end_m"] and off[seed]["sigma_end_m"]]
+        factors = ["{:.2f} [{:.2f}, {:.2f}]".format(*bootstrap([(float(off[s][sigma]), float(own[s][sigma])) for s in both], ratio))
+                   for sigma in sigmas if both and variant != "off"]
         print("| " + " | ".join([*cells, ", ".join(factors) or "–"]) + " |")
 
 
