@@ -19,7 +19,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-RACER = ["simulator.vehicle=quadrotor", "simulator.quadrotor.class=racer"]
+DYNAMICS = "uav.dynamics={thrust_min: 2, thrust_max: 39.2, tilt_max: 70, body_rate_max: 900}"
+RACER = ["simulator.vehicle=quadrotor", "simulator.quadrotor.class=racer", DYNAMICS]
 OFF = ["semantics.lambda_attractive=0", "semantics.lambda_repulsive=0"]
 PRICE, PLANNED = "planner.semantics.error_price=20", "planner.heading=planned"
 # world, variant: scenario, settings

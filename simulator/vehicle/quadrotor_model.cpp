@@ -86,7 +86,7 @@ FlightEstimate QuadrotorModel::believed() const {
   return e;
 }
 
-void QuadrotorModel::step_once() {
+void QuadrotorModel::move_body(const Vec3& air) {
   const double dt = kVehicleStep.seconds();
   Rotors rotors;
   rotors.fill(config_.body.least_thrust * config_.body.max_thrust());
@@ -95,8 +95,13 @@ void QuadrotorModel::step_once() {
   } else {
     controller_.reset();
   }
-  const Vec3 air = wind_.velocity();
   state_ = step(config_.body, state_, rotors, air, ground_z_, dt);
+}
+
+void QuadrotorModel::step_once() {
+  const double dt = kVehicleStep.seconds();
+  const Vec3 air = wind_.velocity();
+  if (!held_) move_body(air);
   wind_.advance((state_.v - air).norm(), dt);
   estimator_.advance(dt);
   time_ = time_ + kVehicleStep;
@@ -114,7 +119,7 @@ VehicleTruth QuadrotorModel::truth() const {
   truth.at = time_;
   truth.motion.p = state_.p;
   truth.motion.v = state_.v;
-  if (!state_.on_ground) truth.motion.a = acceleration(config_.body, state_, wind_.velocity());
+  if (!state_.on_ground && !held_) truth.motion.a = acceleration(config_.body, state_, wind_.velocity());
   truth.q = state_.q;
   truth.w = state_.w;
   truth.on_ground = state_.on_ground;

@@ -71,6 +71,8 @@ class QuadrotorModel {
   void command(const UavState& setpoint) { command_ = setpoint; }
   /// Disarmed, the rotors have their least thrust: on the ground the vehicle stays there.
   void set_armed(bool armed) { armed_ = armed; }
+  /// Held, the body stands still, as on its legs, whatever the wind; time and wind go on.
+  void set_held(bool held) { held_ = held; }
   /// Makes all whole steps up to `now`.
   void advance(UTime now);
 
@@ -95,6 +97,7 @@ class QuadrotorModel {
   [[nodiscard]] FlightCommand commanded() const;
   [[nodiscard]] FlightEstimate believed() const;
   void step_once();
+  void move_body(const Vec3& air);
   void trim_for_wind();
 
   QuadrotorConfig config_;
@@ -106,7 +109,7 @@ class QuadrotorModel {
   QuadrotorState state_;
   double ground_z_;
   UTime time_;
-  bool armed_ = true;
+  bool armed_ = true, held_ = false;
   std::optional<UavState> command_;
   UavState start_;  ///< at rest
   std::deque<UavState> delayed_;

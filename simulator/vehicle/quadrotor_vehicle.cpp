@@ -32,6 +32,7 @@ QuadrotorVehicle::QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& fl
   if (navigation) {
     navigation_.emplace(navigation->imu, navigation->camera, navigation->max_sigma_m, digest("navigation", seed),
                         inertial_state(model_.truth()), now);
+    model_.set_held(true);
   }
 }
 
@@ -59,7 +60,10 @@ void QuadrotorVehicle::advance(UTime now) {
         command.motion.j = (command_.acceleration_ahead(t, lead_) - command.motion.a) / lead_.seconds();
       }
       command.yaw = command_.yaw();
-      has_moved_ = has_moved_ || !command.motion.v.isZero(0.0);
+      if (!has_moved_ && !command.motion.v.isZero(0.0)) {
+        has_moved_ = true;
+        model_.set_held(false);
+      }
       model_.command(command);
       model_.advance(t + kVehicleStep);
     }

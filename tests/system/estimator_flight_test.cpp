@@ -126,6 +126,13 @@ TEST(EstimatorFlight, AcrossALakeErrorsAreWhatTheCovarianceSays) {
   EXPECT_LT(all.end_nees, n * std::pow(1.0 - 2.0 / (9.0 * n) + 3.09 * std::sqrt(2.0 / (9.0 * n)), 3));
 }
 
+TEST(EstimatorFlight, BeginsInGustyWind) {
+  const Judged flight = EstimatedFlightJudge("lake", 1, "simulator.wind={speed: 8, towards: 1.57}").fly();
+  EXPECT_EQ(flight.result.contacts_moving + flight.result.contacts_at_rest, 0);
+  EXPECT_NE(flight.result.detail.find("by its own estimate"), std::string::npos) << flight.result.detail;
+  EXPECT_LT(flight.end_nees, 16.27);  // χ² with 3 degrees of freedom: more has a probability of 0.1 %
+}
+
 TEST(EstimatorFlight, OfAPricedWayEndsWithTheErrorThatLabelsForetold) {
   EstimatedFlightJudge judge("lake", 1, "planner.semantics.error_price=20");
   const Judged flight = judge.fly();

@@ -148,6 +148,24 @@ TEST(QuadrotorModel, HoldsWhereItsLastCommandEnds) {
   EXPECT_LT((vehicle.truth().motion.p - Vec3(0.2, 0, 5)).norm(), 0.02);
 }
 
+TEST(QuadrotorModel, HeldItStandsStillInGustyWindAndFliesOnFromThere) {
+  WindSpec wind;
+  wind.speed = 8.0;
+  const Vec3 start(0, 0, 5);
+  QuadrotorModel vehicle(config_of(QuadrotorClass::Racer), wind, {}, 1, start, kNoGround, UTime{});
+  vehicle.set_held(true);
+  const Eigen::Quaterniond before = vehicle.truth().q;
+  vehicle.advance(at_s(3));
+  EXPECT_EQ(vehicle.truth().motion.p, start);
+  EXPECT_EQ(vehicle.truth().motion.v, Vec3::Zero());
+  EXPECT_EQ(vehicle.truth().motion.a, Vec3::Zero());
+  EXPECT_EQ(vehicle.truth().q.coeffs(), before.coeffs());
+  vehicle.set_held(false);
+  vehicle.advance(at_s(5));
+  EXPECT_NE(vehicle.truth().motion.p, start);
+  EXPECT_LT((vehicle.truth().motion.p - start).norm(), 0.3);
+}
+
 TEST(QuadrotorModel, DisarmedItFallsAndStands) {
   QuadrotorModel vehicle(config_of(QuadrotorClass::Camera), {}, {}, 1, Vec3(0, 0, 2), 0.0, UTime{});
   vehicle.set_armed(false);
