@@ -73,6 +73,7 @@ class QuadrotorModel {
   void set_armed(bool armed) { armed_ = armed; }
   /// Held, the body stands still, as on its legs, whatever the wind; time and wind go on.
   void set_held(bool held) { held_ = held; }
+  [[nodiscard]] bool is_held() const { return held_; }
   /// Makes all whole steps up to `now`.
   void advance(UTime now);
 

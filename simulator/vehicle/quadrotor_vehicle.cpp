@@ -40,7 +40,7 @@ void QuadrotorVehicle::navigate() {
   const VehicleTruth truth = model_.truth();
   navigation_->advance(inertial_state(truth), truth.w);
   const auto believed = navigation_->believed();
-  if (!believed || !has_moved_) return;
+  if (!believed || model_.is_held()) return;
   const Eigen::Quaterniond turned(Mat3(believed->R * truth.q.toRotationMatrix().transpose()));
   model_.set_estimate_error(
       NavigationError{believed->p - truth.motion.p, believed->v - truth.motion.v, turned.normalized()});
@@ -60,10 +60,7 @@ void QuadrotorVehicle::advance(UTime now) {
         command.motion.j = (command_.acceleration_ahead(t, lead_) - command.motion.a) / lead_.seconds();
       }
       command.yaw = command_.yaw();
-      if (!has_moved_ && !command.motion.v.isZero(0.0)) {
-        has_moved_ = true;
-        model_.set_held(false);
-      }
+      if (!command.motion.v.isZero(0.0)) model_.set_held(false);
       model_.command(command);
       model_.advance(t + kVehicleStep);
     }

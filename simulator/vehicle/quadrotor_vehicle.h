@@ -60,7 +60,6 @@ class QuadrotorVehicle final : public Vehicle {
   MotionSample newest_;  ///< at truth_.end()
   UavState published_;
   std::optional<Navigation> navigation_;
-  bool has_moved_ = false;
 };
 
 }  // namespace tern
