@@ -22,7 +22,8 @@ constexpr const char* kExamples[] = {
     "{latitude: 0, longitude: 0}, fences: [{corners: [[0, 0], [1, 0], [0, 1]], floor: 0, ceiling: 1}]}\n"
     "uav: {body: {radius: 0.1}, flight_box: {min: [-9, -9, 0], max: [99, 9, 9]}}\n"
     "semantics: {regions: [{name: a, class: texture, box: {min: [0, 0, 0], max: [1, 1, 1]}}]}\n"
-    "simulator: {sensor: {mode: noisy}, sensors: [{type: camera}], vehicle: quadrotor, estimation: vio}\n"
+    "simulator: {sensor: {mode: noisy}, sensors: [{type: camera}], vehicle: quadrotor, estimation: vio, "
+    "vio: {tags: [{position: [1, 0, 1]}], dark: [{from_s: 1}]}}\n"
     "mapper: {extents: {min: [0, 0, 0], max: [1, 1, 1]}, sources: [{file: town.las}]}\n",
     "world: {obstacles: [{motion: trefoil, centre: [5, 0, 1]}], origin: {latitude: 0, longitude: 0}, fences: "
     "[{coordinates: [[0, 0], [1, 0], [0, 1]]}]}\n"

@@ -38,6 +38,31 @@ void read_vehicle(ConfigSection& section, SimulatorConfig& config) {
   config.quadrotor = flight;
 }
 
+VisualTag read_tag(ConfigSection section) {
+  VisualTag tag;
+  tag.position = section.required_vec3("position", Range::within(WorldObstacle::kMaxCoordinate),
+                                       "place of a tag, W, m: a camera that sees it measures the vehicle's position");
+  tag.range_m =
+      section.number("range_m", tag.range_m, Range::positive(1000.0), "the tag is not recognized from farther away, m");
+  tag.sigma_m = section.number("sigma_m", tag.sigma_m, Range::positive(100.0),
+                               "standard deviation of the position per axis at the distance d: sigma_m + sigma_per_m "
+                               "· d, m");
+  tag.sigma_per_m =
+      section.number("sigma_per_m", tag.sigma_per_m, Range::at_least(0.0, 10.0), "its part that grows with d");
+  section.finish();
+  return tag;
+}
+
+DarkSpan read_dark(ConfigSection section) {
+  DarkSpan dark;
+  dark.from_s = section.number("from_s", dark.from_s, Range::at_least(0.0, 1e5),
+                               "the stereo camera sees nothing from this world time on, s");
+  dark.to_s = section.number("to_s", dark.to_s, Range::positive(1e5), "until this one, s");
+  section.finish();
+  if (dark.to_s <= dark.from_s) throw section.error("to_s", "must be above from_s");
+  return dark;
+}
+
 VioConfig read_vio(ConfigSection section) {
   VioConfig vio;
   vio.navigation.max_sigma_m = section.number(
@@ -50,6 +75,8 @@ VioConfig read_vio(ConfigSection section) {
                                                LandmarkSpec::kMaxDensity, "landmarks per m² in regions of this class");
   landmarks.read(vio.landmarks);
   section.section("tracks").read(vio.tracks);
+  for (const ConfigSection& entry : section.list("tags")) vio.tags.push_back(read_tag(entry));
+  for (const ConfigSection& entry : section.list("dark")) vio.dark.push_back(read_dark(entry));
   section.finish();
   return vio;
 }

@@ -9,6 +9,7 @@
 
 #include "runtime/config.h"
 #include "simulator/app/start_gate.h"
+#include "simulator/inertial/tags.h"
 #include "simulator/inertial/track_simulator.h"
 #include "simulator/sensors/depth_sensor.h"
 #include "simulator/sensors/sensor.h"
@@ -16,11 +17,18 @@
 
 namespace tern {
 
+/// An entry of `simulator.vio.dark`: the stereo camera delivers black pictures at world times in [from_s, to_s).
+struct DarkSpan {
+  double from_s = 0.0, to_s = 1e5;
+};
+
 /// The section `simulator.vio`: IMU, cameras and what they see. Only with `estimation: vio`.
 struct VioConfig {
   NavigationSetup navigation;
   LandmarkSpec landmarks;
   TrackSpec tracks;
+  std::vector<VisualTag> tags;
+  std::vector<DarkSpan> dark;
 };
 
 /// The process that estimates the vehicle's state with `estimation: vio`.

@@ -14,8 +14,8 @@
 
 namespace tern {
 
-/// Publishes IMU and FEATURE_TRACKS of a vehicle, and passes every ODOMETRY to its navigation. The camera sees the true
-/// world from the true pose. Until world zero the world is at rest.
+/// Publishes IMU, FEATURE_TRACKS and the POSITION_FIX of each seen tag, and passes every ODOMETRY to its navigation.
+/// The camera sees the true world from the true pose. Until world zero the world is at rest.
 class VioSensors {
  public:
   /// `world` and `navigation` must outlive this.
@@ -24,15 +24,19 @@ class VioSensors {
   void publish(std::optional<UTime> world_zero);
 
  private:
-  [[nodiscard]] FeatureFrame look(const StereoExposure& exposure, double world_s);
+  void look(const StereoExposure& exposure, double world_s);
+  [[nodiscard]] FeatureFrame tracked(const CameraFrame& camera, UTime at, const std::vector<Landmark>& landmarks);
+  [[nodiscard]] bool is_dark(double world_s) const;
 
   Bus& bus_;
   const World& world_;
   StereoSpec camera_;
   TrackSpec tracks_;
+  std::vector<DarkSpan> dark_;
   Navigation& navigation_;
   LandmarkField field_;
   TrackSimulator tracker_;
+  TagSight tags_;
 };
 
 }  // namespace tern
