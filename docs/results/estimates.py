@@ -23,17 +23,32 @@ DYNAMICS = "uav.dynamics={thrust_min: 2, thrust_max: 39.2, tilt_max: 70, body_ra
 RACER = ["simulator.vehicle=quadrotor", "simulator.quadrotor.class=racer", DYNAMICS]
 OFF = ["semantics.lambda_attractive=0", "semantics.lambda_repulsive=0"]
 PRICE, PLANNED = "planner.semantics.error_price=20", "planner.heading=planned"
-# world, variant: scenario, settings
+
+def tag_at(*place):
+    return [f"simulator.vio.tags=[{{position: {list(place)}, range_m: 12}}]"]
+
+
+def dark(seed):
+    """The camera is dark for 5 s, from a time that differs with the seed."""
+    start = 1 + seed % 13
+    return [f"simulator.vio.dark=[{{from_s: {start}, to_s: {start + 5}}}]"]
+
+
+# world, variant: scenario, settings or a function that makes them of the seed
 VARIANTS = {
     ("lake", "off"): ("lake", OFF),
     ("lake", "λ"): ("lake", []),
     ("lake", "price"): ("lake", [PRICE]),
+    ("lake", "λ, tag"): ("lake", tag_at(79, 0, 1.5)),
+    ("lake", "λ, dark"): ("lake", dark),
     ("facade", "off"): ("facade", OFF),
     ("facade", "λ"): ("facade", []),
     ("facade", "price"): ("facade", [PRICE]),
     ("hall", "off"): ("hall", OFF),
     ("hall", "price"): ("hall", [PRICE]),
     ("hall", "price, heading"): ("hall", [PRICE, PLANNED]),
+    ("hall", "λ, tag"): ("hall", tag_at(79, -1, 1.5)),
+    ("hall", "λ, dark"): ("hall", dark),
     ("paper_attract", "off"): ("paper_attract", RACER + OFF),
     ("paper_attract", "λ"): ("paper_attract", RACER),
     ("paper_repel", "off"): ("paper_repel", RACER + OFF),
@@ -50,7 +65,7 @@ def fly(program, world, variant, seed):
     with tempfile.TemporaryDirectory() as folder:
         command = [program, "fly-one", "--world", str(ROOT / "scenarios" / f"{scenario}.yaml"), "--seed", str(seed), "--charge",
                    "counts", "--folder", folder, "--set", "simulator.estimation=vio"]
-        for setting in settings:
+        for setting in settings(seed) if callable(settings) else settings:
             command += ["--set", setting]
         run = subprocess.run(command, capture_output=True, text=True, check=False)
         summary = pathlib.Path(folder) / "summary.json"

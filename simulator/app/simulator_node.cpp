@@ -293,7 +293,7 @@ void SimulatorNode::judge_belief(UTime now) {
                           referee_.now().seconds() >= referee_.earliest_arrival_s();
   if (!may_arrive) return believed_arrival_.reset();
   const MotionSample believed = vehicle_->estimate(now).motion;
-  if (!believed_arrival_.update(now, goal_->position, setpoint_, believed)) return;
+  if (!believed_arrival_.update(now, goal_->position, setpoint_, believed, navigation.outstanding())) return;
   FlightResult result = referee_.result_so_far();
   result.outcome = FlightOutcome::Timeout;
   result.detail = fmt::format(

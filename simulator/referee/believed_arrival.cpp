@@ -12,13 +12,16 @@ bool rests_at(const Vec3& goal, const MotionSample& motion) {
 
 }  // namespace
 
-bool BelievedArrival::update(UTime now, const Vec3& goal, const MotionSample& setpoint, const MotionSample& believed) {
+bool BelievedArrival::update(UTime now, const Vec3& goal, const MotionSample& setpoint, const MotionSample& believed,
+                             double to_come) {
   if (!rests_at(goal, setpoint)) {
     reset();
     return false;
   }
-  if (!since_ && rests_at(goal, believed)) since_ = now;
-  return since_ && now - *since_ >= kWait && is_at(goal, believed);
+  if (!since_ && rests_at(goal, believed)) since_ = settled_since_ = now;
+  if (!since_) return false;
+  if (to_come > kLarge) settled_since_ = now;
+  return is_at(goal, believed) && (now - settled_since_ >= kWait || now - *since_ >= kLongestWait);
 }
 
 }  // namespace tern
