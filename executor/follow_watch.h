@@ -13,7 +13,7 @@ namespace tern {
 /// the vehicle does not follow, it is the largest distance from the setpoint.
 inline constexpr double kRejoinBeyond = 0.1;
 
-/// A measured state beside the committed trajectory at its time.
+/// A measured state, and the committed state of the same time.
 struct TrackedState {
   MotionSample measured, committed;  ///< W
   Vec3 tube;                         ///< width per axis, m; zero: the vehicle flies the trajectory exactly

@@ -46,8 +46,8 @@ struct SupervisedProcess {
 };
 
 /// Returns overrides that fit an autopilot with PX4's default bounds and thrust/weight 2, with a reserve for feedback.
-/// The bounds are 45°, 220°/s, 12 m/s level and 1.5 m/s down. Limits with `dynamics` are a vehicle's own. They are
-/// kept, but for the speed if the autopilot certainly has the default bounds, as a simulated one.
+/// The bounds are 45°, 220°/s, 12 m/s level and 1.5 m/s down. Limits with `dynamics` are a vehicle's own and are
+/// kept. If the autopilot certainly has the default bounds (a simulated one), v_max is lowered to them all the same.
 std::vector<std::string> autopilot_limits(const Limits& limits, bool has_defaults);
 inline constexpr char kMavlink[] = "tern-mavlink", kAutopilotSim[] = "tern-autopilot-sim";
 inline constexpr char kDetector[] = "tern-detector", kEstimator[] = "tern-estimator";

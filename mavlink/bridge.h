@@ -94,7 +94,7 @@ const char* to_string(Stage stage);
 ///
 /// **Parameters.** With set_parameters, those that decide what happens after a loss, and those of the estimator, are
 /// written in stage Waiting. Bounds of the vehicle (speed, tilt, rates) are written only with raise_bounds: otherwise
-/// the scenario must fit them. All are set back in stage Landed, and when the process ends, if the vehicle is disarmed.
+/// the scenario must fit them. All are restored in stage Landed, and when the process ends, if the vehicle is disarmed.
 ///
 /// **HEARTBEAT as a ground station.** A PX4 sends STATUSTEXT, which says why arming is denied, only to a link with a
 /// ground station. So the bridge sends a second HEARTBEAT of that type, but only if NAV_DLL_ACT was read as 0. With
@@ -131,7 +131,7 @@ class Bridge {
   /// Lands the vehicle if the bridge flies it. @param why  for the log and VEHICLE_STATUS
   void land(const std::string& why);
   void step(UTime now);
-  /// The process ends: parameters that were set are set back as soon as the vehicle is disarmed.
+  /// The process ends: parameters that were set are restored as soon as the vehicle is disarmed.
   void end_parameters() {
     ends_ = true;
     ordered_ = ordered_by_goal_ = false;

@@ -55,7 +55,7 @@ struct BridgeConfig {
     v("check_parameters", check_parameters,
       "refuse to fly while the autopilot has parameters that docs/reference/autopilot.md forbids");
     v("set_parameters", set_parameters,
-      "write the recommended parameters to the autopilot, on the ground; they are set back after the flight");
+      "write the recommended parameters to the autopilot, on the ground; they are restored after the flight");
     v("raise_bounds", raise_bounds,
       "`set_parameters` also raises the vehicle's bounds of speed, tilt and body rate to those of the scenario");
     v("list_parameters", list_parameters,

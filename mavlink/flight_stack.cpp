@@ -7,7 +7,7 @@
 namespace tern::mavlink {
 namespace {
 
-/// The tilt's time constant of a vehicle whose gain is unknown.
+/// Time constant of the tilt if the attitude gain is unknown.
 constexpr Duration kTiltLag{100'000};
 
 /// A PX4, or a firmware that is unknown.

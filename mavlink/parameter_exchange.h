@@ -12,7 +12,7 @@
 namespace tern::mavlink {
 
 /// The parameters of a flight: those of the table are read and, where that is allowed, written. After the flight the
-/// written ones are set back.
+/// written ones are restored.
 class ParameterExchange {
  public:
   /// After this many requests, a parameter without an answer counts as absent. If 20 % of the packets are lost in one

@@ -115,7 +115,7 @@ inline constexpr Channel<Goal> kGoal{
 /// How fast to fly to a goal; sent before the GOAL whose id it names.
 inline constexpr Channel<SpeedLimit> kSpeedLimit{
     "SPEED_LIMIT", Scope::Vehicle, "with a GOAL that has one", kLatched, Role::Operator, kAnyone};
-/// The fences that a ground station has uploaded, beside those of the scenario.
+/// The fences that a ground station has uploaded, in addition to those of the scenario.
 inline constexpr Channel<FenceSet> kFences{
     "FENCES", Scope::Vehicle, "when they change, repeated at 1 Hz; only with `mission.fence_uploads`", kLatched,
     Role::Operator, kFencesSilence};

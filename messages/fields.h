@@ -212,7 +212,8 @@ class FieldReader {
   bool in_order(bool ok, const char* broken = "") { return note(ok, Rejection::Time, broken); }
   bool consistent(bool ok, const char* broken = "") { return note(ok, Rejection::Inconsistent, broken); }
 
-  /// Notes whether no value occurs twice. @param broken  "two tracks have the id": the value follows
+  /// Refuses the message if a value occurs twice.
+  /// @param broken  text of the refusal, as "two tracks have the id"; the value is appended
   void all_different(std::vector<std::int64_t> values, const char* broken);
 
   /// True if every field so far was accepted.

@@ -152,8 +152,8 @@ std::int64_t goal_id(int step, UTime now, std::int64_t largest);
 ///
 ///     v_i = speed · max(|d_i|, 1/√2), i = x, y
 ///
-/// d is the horizontal direction from `from` to `to`. So the speed is exact on the straight way, and at most 1.23 times
-/// as large beside it. The vertical limit is the vehicle's.
+/// d is the horizontal direction from `from` to `to`. So the speed is exact along d, and at most 1.23 times as
+/// large in other directions. The vertical limit is the vehicle's.
 Vec3 velocity_limits(double speed, const Vec3& from, const Vec3& to, const Limits& limits);
 
 /// A step may take this long, s: as a flight may (flight_timeout_s), and 20 s more for detours around movers.

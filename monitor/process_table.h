@@ -29,8 +29,8 @@ class ProcessTable {
   /// @param now  the listener's clock, as in all functions here
   void add(const Heartbeat& heartbeat, UTime now);
 
-  /// The epoch of the active start of a process: the first one received, until it is silent for kHeartbeatTimeout. 0 if
-  /// there was none.
+  /// The epoch of the active start of a process. The first start received is active. Once it is silent for
+  /// kHeartbeatTimeout, the next start with two heartbeats takes its place. 0 if there was none.
   [[nodiscard]] std::int64_t epoch_us(const std::string& process) const;
   /// @return when the last heartbeat of that start arrived, or nullopt if there was none.
   [[nodiscard]] std::optional<UTime> last_heartbeat(const std::string& process, std::int64_t epoch_us) const;
@@ -47,8 +47,8 @@ class ProcessTable {
   /// The processes that are not ready, with reasons: "tern-planner: a map; tern-mapper: starting". Empty if all are
   /// ready.
   [[nodiscard]] std::string waiting() const;
-  /// The words of the processes that are ready or have finished, by name: warnings. Processes without words are left
-  /// out.
+  /// The warnings of processes that are ready or have finished, by name: the text of their newest heartbeat. Processes
+  /// without one are left out.
   [[nodiscard]] std::map<std::string, std::string> words() const;
 
  private:

@@ -17,9 +17,9 @@ constexpr double kBoundSigma = 0.01;
 constexpr double kPerBlock = 0.6;
 constexpr double kLeastBad = 0.2;  ///< share of votes
 constexpr int kLeastWhole = 2;     ///< votes
-/// A ray passes a bound if it leads at least this share of its way beyond it …
+/// A ray passes a bound if it ends beyond it by more than this share of the ray's largest displacement along any axis.
 constexpr float kLeastExcess = 0.2F;
-/// … and towards a bound if it starts within this share of the extent from it.
+/// A ray that passes no bound votes for the one ahead if it starts within this share of the extent from it.
 constexpr float kBand = 0.3F;
 constexpr int kLeastFitting = 6;  ///< rays
 

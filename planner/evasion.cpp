@@ -104,7 +104,7 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Aim aim, PlanWorkspace
     for (std::size_t k = 0; k < ways; ++k) {
       for (const double pace : kStopPaces) {
         const auto stop = stop_at(near, near.room, near.request.start.p + directions()[k] * distance, pace);
-        if (!stop || (stop->is_quick && !near.hold.none_estimated)) continue;
+        if (!stop || (stop->is_quick && near.hold.has_estimated)) continue;
         longest = std::max(longest, stop->way_s);
         stops.push_back(*stop);
       }

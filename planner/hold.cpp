@@ -81,7 +81,7 @@ HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& confi
     hold.width = std::max(hold.width, both.maxCoeff());
     hold.predicted_s = std::max(hold.predicted_s, (obstacle.motion_end() - request.t_s).seconds());
     if (obstacle.is_declared_or_static()) continue;
-    hold.none_estimated = false;
+    hold.has_estimated = true;
     known_s += known_for(obstacle, middle_of(both), request.t_s);
     ++estimated;
   }

@@ -18,7 +18,7 @@ struct HoldDemand {
   double until_s = std::numeric_limits<double>::infinity();  ///< no hold is required beyond this time
   double side_step_s = 0.0;    ///< time in which the vehicle steps out of a mover's way (side_step_time)
   double predicted_s = 0.0;    ///< last time for which any mover nearby is predicted
-  bool none_estimated = true;  ///< every mover nearby is declared
+  bool has_estimated = false;  ///< a mover nearby is estimated
   double width = 0.0;          ///< sum of half-extents of vehicle and largest mover, largest axis, m
 
   /// Returns the hold that an end reached at end_s must have to be preferred, s:

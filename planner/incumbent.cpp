@@ -8,9 +8,7 @@ namespace tern {
 
 Incumbent::Incumbent(const Surroundings& near, Plan blank, std::optional<Candidate> committed, PlanTools& tools)
     : near_(near), blank_(std::move(blank)), committed_(std::move(committed)), tools_(tools) {
-  if (PlanObserver* observer = tools_.log.observer()) {
-    observer->answer(answer(near.start.collides ? PlanReason::StartInCollision : PlanReason::OutOfTime));
-  }
+  report(best_);
 }
 
 void Incumbent::set_course(const Course& course) {
@@ -23,6 +21,7 @@ void Incumbent::set_course(const Course& course) {
 void Incumbent::replace_committed(std::optional<Candidate> committed, const Course& course) {
   committed_ = std::move(committed);
   if (committed_) evaluate(near_, course, *committed_);
+  report(best_);
 }
 
 void Incumbent::report_leaf(const Candidate& leaf) {
@@ -30,7 +29,9 @@ void Incumbent::report_leaf(const Candidate& leaf) {
 }
 
 void Incumbent::offer(Candidate candidate) {
-  if (beats_best(candidate)) make_best(std::move(candidate));
+  if (!beats_best(candidate)) return;
+  best_ = std::move(candidate);
+  report(best_);
 }
 
 void Incumbent::offer_stop(std::optional<Candidate> stop, Aim aim) {
@@ -38,27 +39,26 @@ void Incumbent::offer_stop(std::optional<Candidate> stop, Aim aim) {
   const auto beats = [&](const std::optional<Candidate>& other) {
     return !other || is_better_stop(*stop, *other, aim);
   };
-  if (aim == Aim::Room || (beats(best_) && beats(committed_))) make_best(std::move(*stop));
+  if (aim != Aim::Room && !(beats(best_) && beats(committed_))) return;
+  best_ = std::move(stop);
+  report(best_);
 }
 
 bool Incumbent::beats_best(const Candidate& candidate) const { return !best_ || is_better(candidate, *best_, near_); }
 
-void Incumbent::make_best(Candidate candidate) {
-  best_ = std::move(candidate);
-  report(*best_);
-}
-
-void Incumbent::report(const Candidate& candidate) {
+void Incumbent::report(const std::optional<Candidate>& best) {
   PlanObserver* observer = tools_.log.observer();
-  if (observer == nullptr || (committed_ && is_worse_than_committed(candidate, *committed_, near_))) return;
-  observer->answer(filled(&candidate, PlanReason::None));
+  if (observer == nullptr) return;
+  observer->answer(answer_with(best, near_.start.collides ? PlanReason::StartInCollision : PlanReason::OutOfTime));
 }
 
-Plan Incumbent::answer(PlanReason reason) const {
-  if (best_ && (!committed_ || replaces_committed(*best_, *committed_, near_))) {
-    return filled(&*best_, PlanReason::None);
+Plan Incumbent::answer(PlanReason reason) const { return answer_with(best_, reason); }
+
+Plan Incumbent::answer_with(const std::optional<Candidate>& best, PlanReason reason) const {
+  if (best && (!committed_ || replaces_committed(*best, *committed_, near_))) {
+    return filled(&*best, PlanReason::None);
   }
-  if (best_) return filled(&*committed_, PlanReason::WorsePlan);
+  if (best) return filled(&*committed_, PlanReason::WorsePlan);
   if (committed_) return filled(&*committed_, reason);
   return filled(nullptr, reason == PlanReason::None ? PlanReason::Infeasible : reason);
 }

@@ -12,18 +12,17 @@ namespace tern {
 ///
 /// | call                | effect                                                                               |
 /// |---------------------|--------------------------------------------------------------------------------------|
-/// | constructor         | the committed trajectory, or no plan, is reported                                    |
+/// | constructor         | the committed trajectory is kept, if it is clear                                     |
 /// | set_course()        | both are evaluated for the new course                                                |
 /// | replace_committed() | the committed trajectory is replaced, e.g. by itself at a reduced assurance          |
-/// | report_leaf()       | the leaf is reported if it beats the best; the best stays                            |
-/// | offer()             | the candidate becomes the best and is reported, if it beats the best                 |
-/// | offer_stop()        | the stop becomes the best and is reported: for the aim Room always, for the aim Stop |
-/// |                     | if it stays clear longer than the best and the committed trajectory                  |
+/// | report_leaf()       | if the leaf beats the best, the observer is told the answer with it; the best stays  |
+/// | offer()             | the candidate becomes the best, if it beats the best                                 |
+/// | offer_stop()        | the stop becomes the best: for the aim Room always, for the aim Stop if it stays     |
+/// |                     | clear longer than the best and the committed trajectory                              |
 /// | answer()            | returns the plan: the best, or the committed trajectory if the best does not         |
 /// |                     | replace it                                                                           |
 ///
-/// Candidates are reported to the log's observer, so that the watchdog has an answer at any time. A candidate that is
-/// worse than the committed trajectory is not reported.
+/// The log's observer is told after each change what the answer would be now, so that the watchdog has one at any time.
 class Incumbent {
  public:
   /// @param near       at full assurance
@@ -47,8 +46,9 @@ class Incumbent {
 
  private:
   [[nodiscard]] bool beats_best(const Candidate& candidate) const;
-  void make_best(Candidate candidate);
-  void report(const Candidate& candidate);
+  /// Tells the observer the answer if planning ended here with this best candidate.
+  void report(const std::optional<Candidate>& best);
+  [[nodiscard]] Plan answer_with(const std::optional<Candidate>& best, PlanReason reason) const;
   [[nodiscard]] Plan filled(const Candidate* candidate, PlanReason reason) const;
 
   const Surroundings& near_;

@@ -44,7 +44,7 @@ bool is_worse_than_committed(const Candidate& candidate, const Candidate& commit
   if (candidate.contact_s != committed.contact_s) return candidate.contact_s < committed.contact_s;
   if (!holds_or_arrives_earlier(candidate, committed)) return true;
   if (candidate.holds != committed.holds) return false;
-  if (near.hold.none_estimated && !candidate.holds && candidate.clear_s < committed.clear_s) return true;
+  if (!near.hold.has_estimated && !candidate.holds && candidate.clear_s < committed.clear_s) return true;
   if (makes_progress(committed) && !makes_progress(candidate)) return true;
   const bool ends_later = candidate.trajectory.end() >= committed.trajectory.end();
   return is_stationary(near.request) && ends_later && ends_where(candidate, committed);

@@ -40,7 +40,7 @@ std::vector<Trial> schedule_among_estimates(const Surroundings& near) {
 
 }  // namespace
 
-bool is_among_estimates(Task task, const Surroundings& near) { return task == Task::Fly && !near.hold.none_estimated; }
+bool is_among_estimates(Task task, const Surroundings& near) { return task == Task::Fly && near.hold.has_estimated; }
 
 std::vector<Trial> schedule(Task task, const Surroundings& near) {
   if (is_among_estimates(task, near)) return schedule_among_estimates(near);

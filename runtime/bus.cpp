@@ -96,15 +96,15 @@ struct Bus::ChannelState {
   SenderWatch senders;
   std::deque<RawHandler> handlers;
   lcm::Subscription* subscription = nullptr;
-  bool counted = false;   ///< an earlier handler has accepted or rejected the message being delivered …
-  bool admitted = false;  ///< … true: accepted
+  bool counted = false;   ///< an earlier handler has judged the message being delivered
+  bool admitted = false;  ///< that handler has accepted it
   ReplayGuard guard;      ///< with keys
   LogLimiter reject_log, send_log;
   RefusalRate refused;
-  std::string why;          ///< in words, of the newest refusal
-  std::string description;  ///< in words, of the last message refused for its fields that was looked into …
-  std::optional<Rejection> described;  ///< … its reason …
-  UTime described_at;                  ///< … and when
+  std::string why;                     ///< in words, of the newest refusal
+  std::string description;             ///< in words, of the last message refused for its fields that was looked into
+  std::optional<Rejection> described;  ///< the reason of that refusal
+  UTime described_at;                  ///< its time
   std::deque<Encoder> unsent;
   UTime due = kNever;
 

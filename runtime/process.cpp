@@ -64,7 +64,7 @@ void declare(CommandLine& app, Options& options, const ProcessDescription& descr
     app.add_flag("--help-config", options.help_config,
                  "Print every key of this process's section of the scenario file, and exit");
     app.add_flag("--check-config", options.check_config,
-                 "Read the scenario and this process's section of it, and exit");
+                 "Check the scenario and this process's section of it, and exit");
   }
   app.add_option("--config", options.config, "Scenario file (YAML); without it all keys have their defaults")
       ->type_name("FILE");

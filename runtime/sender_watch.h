@@ -52,8 +52,8 @@ class SenderWatch {
   [[nodiscard]] std::int64_t lost() const { return losses_.lost(); }
   /// Whether a second sender has published several times, and recently.
   [[nodiscard]] bool has_second_sender(UTime now) const;
-  /// Returns how far ahead of the listener's clock the times of recent messages were; nullopt unless there were several
-  /// such messages.
+  /// Returns how far the newest message that was refused as Future was ahead of the listener's clock. nullopt with
+  /// fewer than three of them, or once they have ceased for a while.
   [[nodiscard]] std::optional<Duration> ahead(UTime now) const;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace tern {
 
-/// Exposure to one region, over all flights that report it.
+/// Time (s) and path (m) inside one region, over all flights that report it; near_: inside or within 1 m of it.
 struct RegionExposure {
   Distribution seconds, metres, near_seconds, near_metres;
 };

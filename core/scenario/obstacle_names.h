@@ -11,7 +11,7 @@ namespace tern {
 /// out. O(length of the text).
 ///
 /// * Every process lists the scenario's obstacles. Ids count the generated obstacles first (`world.count`), then the
-///   listed ones. The generator `step_aside` draws its number, so beside it no listed name is known.
+///   listed ones. The generator `step_aside` draws its number, so with it the ids of listed obstacles are unknown.
 /// * tern-simulator adds a name_note() for each obstacle of its world, recorded ones included.
 /// @param yaml  as ConfigDocument::effective() writes it: a key per line, two spaces per level; then the notes
 std::map<std::int64_t, std::string> obstacle_names(const std::string& yaml);

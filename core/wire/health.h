@@ -53,7 +53,7 @@ struct Heartbeat {
   std::string process;  ///< "tern-planner"
   std::string build_id;
   ProcessState state = ProcessState::Starting;
-  std::string waiting_for;  ///< in words what the process waits for; may be empty
+  std::string waiting_for;  ///< Waiting: for what; Ready: warnings; Failed: the reason; may be empty
   std::map<std::string, ChannelCounters> channels;
   std::vector<ClockEcho> echoes;  ///< in ascending order of their epochs
 };

@@ -64,16 +64,17 @@ enum class Stage : std::uint8_t {
 };
 inline constexpr int kStages = 6;
 
-/// The purpose of an attempt. Each phase has a budget of its own: evasion is needed exactly when the durations have
+/// The purpose of an attempt. Each phase has kMaxAttempts of its own: evasion is needed exactly when the durations have
 /// used theirs without success.
 enum class Phase : std::uint8_t {
   Durations = 0,  ///< a plan to the local goal at the confidence of the predictions
-  Evasion = 1,    ///< a plan to the local goal at a lower confidence; a plan to the stop that stays clear longest
+  Evasion = 1,    ///< a plan at a lower confidence, to a nearer goal for unseen movers, or to the stop that stays clear
+                  ///< longest
   Room = 2,       ///< a plan out of a hull, to the place with most room
 };
 inline constexpr int kPhases = 3;
 /// The largest number of attempts of a phase.
-inline constexpr int kMaxAttempts = 100;
+inline constexpr int kMaxAttempts = 200;
 
 /// The place where a budget ended a loop. A replay uses it instead of a clock.
 struct BudgetCut {

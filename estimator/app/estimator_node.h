@@ -29,7 +29,8 @@ struct EstimatorNodeConfig {
     v("imu", imu, Range{0, 2'147'483'647}, "`sensor_id` of the IMU that is used");
     v("camera", camera, Range{0, 2'147'483'647}, "`sensor_id` of the stereo pair that is used");
     v("start_yaw", start_yaw, Range::within(3.2), "yaw of the vehicle at rest at the start, rad");
-    v("mask_movers", mask_movers, "only features beside all predicted movers are used; static tracks hide nothing");
+    v("mask_movers", mask_movers,
+      "features that may lie on a predicted mover are not used; static tracks hide nothing");
     filter.visit(v);
   }
 };

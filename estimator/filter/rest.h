@@ -17,7 +17,7 @@ struct RestMean {
   double duration = 0.0;      ///< s
 };
 
-/// Watches an IMU for rest. Means of blocks of 0.1 s are compared with the mean of the rest so far. A block ends the
+/// Watches an IMU for rest. Means of blocks of 0.1 s are compared with the mean since the rest began. A block ends the
 /// rest if it differs by more than 5 standard deviations of its noise on any axis. The newest kYoungBlocks blocks
 /// are not part of the mean, because a slow motion may have begun in them.
 ///

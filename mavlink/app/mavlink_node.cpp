@@ -50,8 +50,8 @@ MavlinkNode::~MavlinkNode() {
   if (!exit_code_ && bridge_.flies()) land();
   if (bridge_.has_set_parameters()) {
     log::error(
-        "parameters of the autopilot were not set back, since it is armed or silent, or an error ended this process: "
-        "the lines \"sets …\" above have the old values");
+        "parameters of the autopilot were not restored: it is armed, it does not answer, or this process failed. The "
+        "old values are in the lines \"sets …\" above");
   }
 }
 

@@ -130,7 +130,7 @@ class SimulatedAutopilot {
   void receive_vision(const Odometry& seen, UTime now);
   void jump_up(double metres);
   void receive_target(const SetPositionTargetLocalNed& target, UTime now);
-  /// The firmware's own values, and the hover thrust of this vehicle.
+  /// The firmware's defaults, apart from hover thrust and velocity gain, which the configuration states.
   static std::map<std::string, double> default_parameters(const SimulatedAutopilotConfig& config);
   static QuadrotorConfig bare(const SimulatedAutopilotConfig& config);
   void receive_parameters(const Frame& frame);

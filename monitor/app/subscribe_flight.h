@@ -8,7 +8,8 @@
 
 namespace tern {
 
-/// The channels by which a FlightWatch judges, beside VEHICLE_TRUTH; not OBSTACLE_TRUTH, which is only shown.
+/// The channels by which a FlightWatch judges, without VEHICLE_TRUTH (subscribed apart) and OBSTACLE_TRUTH (only
+/// shown).
 inline constexpr std::tuple kJudgedChannels{
     channels::kHeartbeat,   channels::kConfiguration,        channels::kUavState,
     channels::kGoal,        channels::kVehicleStatus,        channels::kHorizonRequest,

@@ -19,8 +19,8 @@ HeadingStart heading_start(const YawSample& at, Duration interval);
 /// @return nullopt if the plan stays where it is, so that no direction is better than another
 std::optional<YawSample> flight_direction(const HorizonRequest& request, const Plan& plan);
 
-/// Plans the heading of a plan from t_s on, in as many intervals of the same length. After KeepCommitted it looks along
-/// what is left of the committed trajectory. Pure and deterministic.
+/// Plans the heading of a plan from t_s on, with the plan's number and length of intervals. After KeepCommitted it
+/// looks along what is left of the committed trajectory. Pure and deterministic.
 ///
 /// 1. At the Greville abscissa of each control point, each term names the directions that are worth looking at. Terms:
 ///    the way ahead (path_term.h), tracks (track_term.h), texture (texture_term.h).

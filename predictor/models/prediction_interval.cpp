@@ -8,9 +8,8 @@
 namespace tern {
 namespace {
 
-// Halvings of [0, kLargestQuantile]: to 1e-9.
 constexpr double kMaxQuantile = 40.0;
-constexpr int kHalvings = 36;
+constexpr int kHalvings = 36;  // of [0, kMaxQuantile]: to 1e-9
 
 MotionSample sample_of(const Waypoint& waypoint) {
   MotionSample sample;

@@ -25,7 +25,10 @@ int main(int argc, char** argv) {
         app.add_option("--receive", options.receive,
                        "Topics that act on the flight, separated by commas: goal_pose, odom, following, detections, "
                        "cloud, octomap_binary (default: none)");
-        app.add_option("--goal-height", goal_height, "A goal's height: `pose`, or `keep`: the vehicle's (RViz sends 0)")
+        app.add_option(
+               "--goal-height", goal_height,
+               "Height of a goal: `pose` (the z of the message), or `keep` (the vehicle's present height: for RViz, "
+               "which sends 0)")
             .one_of({"pose", "keep"});
         app.add_option("--detection-sigma", options.in.detection_sigma_m,
                        "Standard deviation of detections without covariance, m (default 0.1)")

@@ -97,10 +97,12 @@ DepthSensorConfig read_depth_sensor(ConfigSection& section, bool is_camera) {
   } else {
     const double around =
         section.number("horizontal_fov_deg", 360.0, Range{1.0, 360.0}, "horizontal field of view, degrees");
-    const double lowest = section.number("elevation_min_deg", -7.5, Range{-90.0, -0.5},
-                                         "lower edge of the lowest rays, degrees above the horizon");
-    const double highest = section.number("elevation_max_deg", 52.5, Range{0.5, 90.0},
-                                          "upper edge of the highest rays, degrees above the horizon");
+    const double lowest =
+        section.number("elevation_min_deg", -7.5, Range{-90.0, -0.5},
+                       "lower edge of the lowest row, degrees above the horizon; its rays are half a row higher");
+    const double highest =
+        section.number("elevation_max_deg", 52.5, Range{0.5, 90.0},
+                       "upper edge of the highest row, degrees above the horizon; its rays are half a row lower");
     optics.shape = lidar_shape(kDegree * around, kDegree * lowest, kDegree * highest, columns, rows);
   }
   section.finish();

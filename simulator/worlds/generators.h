@@ -11,9 +11,9 @@
 
 namespace tern {
 
-/// Least distance of a generated obstacle from the start, m …
+/// Least distance of a generated obstacle from the start during kStartQuiet, m.
 inline constexpr double kStartClearance = 1.0;
-/// … during this time from world time 0, s.
+/// Time from world time 0, s.
 inline constexpr double kStartQuiet = 1.0;
 /// Least distance of a static obstacle from start and goal, m. A mover must be farther than this from the goal at some
 /// time of its period.
@@ -25,7 +25,7 @@ struct GeneratedObstacles {
 };
 
 /// Draws `count` obstacles with Rng(seed), one after the other, each in the order x, y, z, scales, s, φ. Fixed values
-/// are not drawn. ⌊0.65 N⌋ of them move; ⌊0.35 rest⌋ of the rest are pillars. A wave's φ is drawn like a trefoil's.
+/// are not drawn. M = ⌊0.65 N⌋ of them move; ⌊0.35 (N − M)⌋ are pillars. A wave's φ is drawn like a trefoil's.
 ///
 ///  - paper_corridor, paper_attract, paper_repel, corridor_demo: x∈[2,72], y∈[−2,2], z∈[0,4]. Movers: cubes of 0.8 m
 ///    on trefoils k = 1, s = 1.1, φ∈[−2π,2π]. The rest is static, 0.4×0.4×8 m at z = 2 (z is not drawn).

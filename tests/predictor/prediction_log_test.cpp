@@ -44,7 +44,7 @@ TEST_F(PredictionLogTest, StoresTheFirstOnesAndThenOneInEachPeriod) {
   for (int n = 0; n < 20; ++n) {
     if (detect(n)) stored.push_back(n);
   }
-  // Detections 1, 2, 3, 5 and 8 count from 1. At 0.3 s (n = 6) the track is no longer young.
+  // Detections 1, 2, 3, 5 and 8 are n = 0, 1, 2, 4, 7. At n = 6 (0.3 s) the track is no longer young.
   EXPECT_EQ(stored, (std::vector<int>{0, 1, 2, 4, 6, 7, 12, 17}));
 }
 

@@ -1,4 +1,4 @@
-// Tests on recordings that are not part of the project (docs say where they come from).
+// Tests on recordings that are not part of the project (docs/howto/get_data.md says where to get them).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -191,7 +191,7 @@ std::vector<RecordedTrack> walker() {
 TEST(RecordedStart, IsTheFirstFrameThatLeavesTheStartClearForASecond) {
   RecordedTracksSpec spec = five_columns();
   const Vec3 start(0, 0, 1);
-  // Within 1 m between 9 and 11 s; 10 frames a second.
+  // The walker is within 1 m of the start from 9 to 11 s. The file has 10 frames per second.
   const auto from = [&](double start_s) {
     spec.start_s = start_s;
     return recorded_start(walker(), spec, start).value();

@@ -45,8 +45,8 @@ TEST(BehindMavlink, AQuietStartKeepsTheTubeNarrowAndFiftyObstaclesArePassed) {
   }
 }
 
-/// An estimate as by GPS: off by 0.4 m per axis (1 σ), and reported as that uncertain.
-TEST(BehindMavlink, ByGpsAnEmptyWorldIsFlownThatHasRoomForTheTube) {
+/// An estimate like that of GPS: its error is 0.4 m per axis (1 σ), and so is the reported one.
+TEST(BehindMavlink, FliesAnEmptyWorldByGps) {
   SimulatedAutopilotConfig gps = sih();
   gps.estimator.position_sigma_m = 0.4;
   gps.estimator.noise_time_s = 20.0;

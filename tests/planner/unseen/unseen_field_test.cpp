@@ -106,7 +106,7 @@ std::vector<std::uint8_t> cells_seen_empty(const UnseenGrid& grid, const SightFa
   return flags;
 }
 
-/// 1500 movers anywhere but in walls and within 2 m of the vehicle.
+/// 1500 movers, outside walls and at least 2 m from the vehicle.
 std::vector<Adversary> adversaries(Rng& rng, const Place& place, double width) {
   std::vector<Adversary> all;
   while (all.size() < 1500) {
