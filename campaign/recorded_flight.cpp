@@ -95,6 +95,7 @@ FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& e
   if (inputs.charge == Charge::Cpu) record.replan_ms = rounded(summary.replan_ms);
   record.messages = summary.messages;
   record.restarts = summary.restarts;
+  record.passively_safe_share = summary.passively_safe_share.value_or(Tracking::kNone);
   return record;
 }
 

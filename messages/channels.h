@@ -17,6 +17,7 @@
 #include "core/world/map_file.h"
 #include "core/world/observation.h"
 #include "core/world/plan_heading.h"
+#include "core/world/plan_unseen.h"
 #include "core/world/scan.h"
 #include "core/world/search_view.h"
 #include "core/world/sighting.h"
@@ -132,6 +133,10 @@ inline constexpr Channel<PlanHeading> kPlanHeading{
 /// Time by stage, work and memory of one answer.
 inline constexpr Channel<PlanTiming> kPlanTiming{
     "PLAN_TIMING", Scope::Vehicle, "one per request", kStream, Role::Planner, kShortSilence};
+/// How long a plan is clear of movers that no sensor has seen.
+inline constexpr Channel<PlanUnseen> kPlanUnseen{
+    "PLAN_UNSEEN", Scope::Vehicle, "one per plan, only with `planner.unseen: passive`", kStream, Role::Planner,
+    kShortSilence};
 /// For display: the nodes of the last search.
 inline constexpr Channel<SearchView> kSearchView{
     "SEARCH_VIEW", Scope::Vehicle, "one per request, only with `planner.publish_search`", kStream, Role::Planner,
@@ -165,35 +170,14 @@ inline constexpr Channel<FlightResult> kFlightResult{
     "FLIGHT_RESULT", Scope::Vehicle, "at the end", kLatched, Role::Vehicle, kSilence};
 // clang-format on
 
-inline constexpr std::tuple kAll{kUavState,
-                                 kSetpoint,
-                                 kVehicleStatus,
-                                 kObstacleObservations,
-                                 kObstacleSightings,
-                                 kPointCloud,
-                                 kDepthImage,
-                                 kDeclaredMotions,
-                                 kPredictions,
-                                 kTrackBounds,
-                                 kSemanticMap,
-                                 kGoal,
-                                 kHorizonRequest,
-                                 kPlan,
-                                 kPlanHeading,
-                                 kPlanTiming,
-                                 kSearchView,
-                                 kHeartbeat,
-                                 kConfiguration,
-                                 kObstacleTruth,
-                                 kVehicleTruth,
-                                 kImu,
-                                 kFeatureTracks,
-                                 kPositionFix,
-                                 kOdometry,
-                                 kFlightResult,
-                                 kMapFile,
-                                 kSpeedLimit,
-                                 kFences};
+inline constexpr std::tuple kAll{kUavState,          kSetpoint,     kVehicleStatus, kObstacleObservations,
+                                 kObstacleSightings, kPointCloud,   kDepthImage,    kDeclaredMotions,
+                                 kPredictions,       kTrackBounds,  kSemanticMap,   kGoal,
+                                 kHorizonRequest,    kPlan,         kPlanHeading,   kPlanTiming,
+                                 kPlanUnseen,        kSearchView,   kHeartbeat,     kConfiguration,
+                                 kObstacleTruth,     kVehicleTruth, kImu,           kFeatureTracks,
+                                 kPositionFix,       kOdometry,     kFlightResult,  kMapFile,
+                                 kSpeedLimit,        kFences};
 
 }  // namespace channels
 

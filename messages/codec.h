@@ -85,6 +85,8 @@ template <>
 inline constexpr const char* kLcmType<PlanHeading> = "plan_heading_t";
 template <>
 inline constexpr const char* kLcmType<PlanTiming> = "plan_timing_t";
+template <>
+inline constexpr const char* kLcmType<PlanUnseen> = "plan_unseen_t";
 /// Inconsistent: a node precedes its parent.
 template <>
 inline constexpr const char* kLcmType<SearchView> = "search_view_t";

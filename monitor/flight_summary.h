@@ -50,6 +50,9 @@ struct FlightSummary {
   PlansByLevel by_level = {};
   std::int64_t for_a_time = 0;  ///< RequestLedger::plans_for_a_time
   LeftOut left_out;
+  /// Share of the time in which the committed trajectory was certified against unseen movers (CertifiedShare); nullopt
+  /// with `planner.unseen: ignore`.
+  std::optional<double> passively_safe_share;
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
   std::int64_t restarts = 0;
@@ -68,11 +71,11 @@ struct FlightSummary {
 ///     outcome, detail, cause, why, recording, scenario, seed, count, settings, flight_time_s, first_entry_s,
 ///     path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, min_map_clearance_m, limit_violations,
 ///     contacts_moving, contacts_at_rest, obstacles, obstacles_left_out, requests, answered_in_time, second_answers,
-///     plans, confidence, left_out, replan_ms, exposure, messages, restarts, beside, log, command, pace,
-///     version
+///     plans, confidence, left_out, passively_safe_share, replan_ms, exposure, messages, restarts, beside, log,
+///     command, pace, version
 std::string to_json(const FlightSummary& summary);
 
-/// The summary as text: at most 34 lines of at most 100 characters, if there are at most 6 regions. The explanation,
+/// The summary as text: at most 35 lines of at most 100 characters, if there are at most 6 regions. The explanation,
 /// and the reason of an incomplete recording, are further lines after the first.
 std::string to_text(const FlightSummary& summary);
 

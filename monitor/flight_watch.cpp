@@ -50,7 +50,7 @@ void FlightWatch::receive(const Goal& goal) {
 }
 
 void FlightWatch::receive(const HorizonRequest& request, UTime now) {
-  ledger_.add(request);
+  if (ledger_.add(request)) certified_.add(request);
   note(request);
   const bool is_executors = request.header.name.sender_epoch_us == processes_.epoch_us(kExecutorProcess);
   recording_.begin();
@@ -177,6 +177,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.by_level = ledger_.plans_by_level();
   summary.for_a_time = ledger_.plans_for_a_time();
   summary.left_out = ledger_.left_out();
+  if (state_) summary.passively_safe_share = certified_.until(state_->at);
   summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::BroadPhase),
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};
   summary.pace = pace_.value_or(1.0);

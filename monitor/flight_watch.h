@@ -14,6 +14,7 @@
 #include "core/world/observation.h"
 #include "core/world/replan_samples.h"
 #include "core/world/vehicle.h"
+#include "monitor/certified_share.h"
 #include "monitor/duplicate_filter.h"
 #include "monitor/estimate_watch.h"
 #include "monitor/flight_evidence.h"
@@ -82,6 +83,7 @@ class FlightWatch {
   void receive(const HorizonRequest& request, UTime now);
   void receive(const Plan& plan);
   void receive(const PlanTiming& timing);
+  void receive(const PlanUnseen& unseen) { certified_.add(unseen); }
   void receive(const VehicleStatus& status) { note(status); }
   void receive(const Odometry& odometry) {
     if (!result_) estimate_.add(odometry);
@@ -125,6 +127,7 @@ class FlightWatch {
   UTime began_;
   ProcessTable processes_;
   RequestLedger ledger_;
+  CertifiedShare certified_;
   FlightEvidence evidence_;
   EstimateWatch estimate_;
   RecordingWatch recording_;

@@ -9,10 +9,11 @@ std::size_t level_of(const Plan& plan) { return plan.confidence <= 0.0 ? kConfid
 
 }  // namespace
 
-void RequestLedger::add(const HorizonRequest& request) {
-  if (!requests_filter_.is_first(request.header.name)) return;
+bool RequestLedger::add(const HorizonRequest& request) {
+  if (!requests_filter_.is_first(request.header.name)) return false;
   deadlines_[request.id] = request.deadline;
   answered_.erase(request.id);  // the ids of a restarted executor begin at 1 again
+  return true;
 }
 
 void RequestLedger::add(const Plan& plan) {

@@ -40,7 +40,8 @@ using PlansByLevel = std::array<std::int64_t, kConfidenceLevels.size() + 1>;
 /// was published (header.utime) by the deadline.
 class RequestLedger {
  public:
-  void add(const HorizonRequest& request);
+  /// @return false for a repeated delivery
+  bool add(const HorizonRequest& request);
   void add(const Plan& plan);
   /// @param vehicle_time  the vehicle's clock
   void advance(UTime vehicle_time);

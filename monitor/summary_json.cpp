@@ -114,6 +114,7 @@ std::string to_json(const FlightSummary& summary) {
       {"plans", plans_by_outcome(summary)},
       {"confidence", plans_by_confidence(summary)},
       {"left_out", {{"plans", summary.left_out.plans}, {"most_tracks", summary.left_out.max_tracks}}},
+      {"passively_safe_share", known(summary.passively_safe_share)},
       {"replan_ms", to_json(summary.replan_ms)},
       {"exposure", exposure_by_region(result)},
       {"messages", messages_by_channel(summary)},

@@ -114,6 +114,9 @@ std::string plan_lines(const FlightSummary& s) {
                         s.by_level.front(), less - s.by_level.back(), s.by_level.back(), kConfidenceLevels.back(),
                         s.for_a_time);
   }
+  if (s.passively_safe_share) {
+    text += fmt::format("  unseen movers {:.1f} % of the time certified\n", *s.passively_safe_share * 100.0);
+  }
   if (s.left_out.plans == 0) return text;
   return text +
          fmt::format("  left out      {} plans rest on incomplete predictions: up to {} tracks are not in them\n",

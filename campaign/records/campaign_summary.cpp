@@ -75,6 +75,7 @@ void add_measures(CampaignSummary& s, const Records& all, const Records& reached
   s.top_speed_mps = over(all, kResult, &FlightResult::top_speed_mps);
   s.min_clearance_m = over(all, kResult, &FlightResult::min_clearance_m);
   s.min_map_clearance_m = over(all, kResult, &FlightResult::min_map_clearance_m);
+  s.passively_safe_share = over(all, &FlightRecord::passively_safe_share);
   constexpr auto kTracking = &FlightRecord::tracking;
   s.tracking_rmse_m = over(all, kTracking, &Tracking::rmse_m);
   s.tracking_error_m = over(all, kTracking, &Tracking::error_m);
@@ -246,6 +247,7 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
       {"timed_flights", s.timed_flights},
   };
   for (std::size_t k = 0; k < kMeasuredTimes.size(); ++k) json[kMeasuredTimes[k]] = to_json(s.times[k]);
+  json["passively_safe_share"] = to_json(s.passively_safe_share);
   add_tracking(json, s);
   json["exposure"] = exposure_json(s);
   json["audits"] = s.audits;
@@ -279,6 +281,7 @@ std::string to_text(const CampaignSummary& s) {
   row("mean_speed_mps", s.mean_speed_mps), row("top_speed_mps", s.top_speed_mps);
   row("min_clearance_m", s.min_clearance_m), row("min_map_clearance_m", s.min_map_clearance_m);
   row("jerk_integral", s.jerk_integral);
+  row("passively_safe_share", s.passively_safe_share);
   row("tracking_rmse_m", s.tracking_rmse_m), row("tracking_error_m", s.tracking_error_m);
   row("tube_m", s.tube_m), row("tube_margin_m", s.tube_margin_m);
   for (std::size_t k = 0; k < kMeasuredTimes.size(); ++k) row(kMeasuredTimes[k], s.times[k]);

@@ -31,6 +31,7 @@ struct CampaignSummary {
   // Over all flights:
   Distribution top_speed_mps, min_clearance_m, min_map_clearance_m;
   Distribution tracking_rmse_m, tracking_error_m, tube_m, tube_margin_m;  ///< of the audited flights
+  Distribution passively_safe_share;  ///< of the flights with `planner.unseen: passive`
   std::int64_t stops = 0, flights_with_stops = 0, limit_violations = 0;
   std::int64_t contacts_moving = 0, contacts_at_rest = 0;
   std::optional<Interval> contact_moving_ci95;  ///< Wilson interval of flights with a contact while moving

@@ -203,6 +203,10 @@ std::vector<Column> make_columns() {
       column("count", "world.count: obstacles of the generator", kNo, &R::identity, &CampaignIdentity::count));
   add_measures(columns);
   add_answers(columns);
+  columns.push_back(
+      column("passively_safe_share",
+             "share of the time certified against unseen movers, [0, 1]; empty with planner.unseen: ignore",
+             Compared::All, &R::passively_safe_share));
   add_times(columns);
   columns.push_back(column("exposure", "JSON, per region: seconds and metres inside and within 1 m", kNo, &R::result,
                            &FlightResult::exposure));

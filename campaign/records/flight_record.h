@@ -52,6 +52,7 @@ struct FlightRecord {
   ReplanTimes replan_ms;  ///< NaN if times are not charged, since they would differ from run to run
   std::map<std::string, MessageCount> messages;
   std::int64_t restarts = 0;
+  double passively_safe_share = Tracking::kNone;  ///< FlightSummary::passively_safe_share; NaN: not known
   Tracking tracking;
   Coverage coverage;  ///< of predictions, by the audit; empty without an audit
   std::string audit;  ///< "passed", "broken", "incomplete", "not judged", "failed"; "" without an audit

@@ -14,7 +14,8 @@ inline constexpr std::tuple kJudgedChannels{
     channels::kHeartbeat,   channels::kConfiguration,        channels::kUavState,
     channels::kGoal,        channels::kVehicleStatus,        channels::kHorizonRequest,
     channels::kPlan,        channels::kPlanTiming,           channels::kFlightResult,
-    channels::kPredictions, channels::kObstacleObservations, channels::kOdometry};
+    channels::kPredictions, channels::kObstacleObservations, channels::kOdometry,
+    channels::kPlanUnseen};
 
 /// Hands `watch` all messages by which it judges. `watch` must exist while the bus delivers messages.
 inline void subscribe_flight(Bus& bus, FlightWatch& watch) {

@@ -58,9 +58,10 @@ PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& conf
       execution_(execution),
       intake_(bus, config, uav, execution.threaded, std::move(places)),
       headings_(bus, uav.heading),
+      unseen_desk_(bus),
       desk_(bus, configuration_hash) {
   if (config.unseen == UnseenMode::Passive) unseen_.emplace(bus, config.unseen_movers, uav.start);
-  if (config.heading == HeadingMode::Planned) desk_.on_sent([this](const Plan& plan) { headings_.answered(plan); });
+  desk_.on_sent([this](const Plan& plan) { on_sent(plan); });
   bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& r) { on_request(r); });
   if (execution.threaded) worker_ = std::make_unique<Worker>();
 }
@@ -132,10 +133,16 @@ void PlannerNode::on_request(const HorizonRequest& request) {
   intake_.set_vehicle(request);
   if (unseen_) unseen_->set_vehicle(request);
   desk_.open(request, now);
+  if (unseen_) unseen_desk_.begin(request, unseen_->snapshot());
   waiting_ = request;
   waiting_since_ = now;
   if (has_watchdog()) watch(now);
   if (waiting_) start_planning(now);
+}
+
+void PlannerNode::on_sent(const Plan& plan) {
+  if (config_.heading == HeadingMode::Planned) headings_.answered(plan);
+  if (unseen_) unseen_desk_.answered(plan);
 }
 
 void PlannerNode::start_planning(UTime now) {

@@ -10,6 +10,7 @@
 #include "core/world/search_view.h"
 #include "planner/app/answer_desk.h"
 #include "planner/app/heading_desk.h"
+#include "planner/app/unseen_desk.h"
 #include "planner/app/unseen_intake.h"
 #include "planner/app/worker.h"
 #include "planner/app/world_intake.h"
@@ -50,6 +51,7 @@ class PlannerNode final : public Node {
 
  private:
   void on_request(const HorizonRequest& request);
+  void on_sent(const Plan& plan);
   [[nodiscard]] PlanningWorld world_now() const;
   void start_planning(UTime now);
   void work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived);
@@ -65,6 +67,7 @@ class PlannerNode final : public Node {
   PlannerExecution execution_;
   WorldIntake intake_;
   HeadingDesk headings_;
+  UnseenDesk unseen_desk_;
   std::optional<UnseenIntake> unseen_;  ///< with `planner.unseen: passive`
   AnswerDesk desk_;
   Header last_request_;                    ///< header of the newest request: the network may deliver messages late

@@ -48,6 +48,7 @@ TEST(FlightRecord, ReadsBackEqual) {
     EXPECT_EQ(read->result.flight_time_s, flight.result.flight_time_s);
     EXPECT_EQ(read->result.detail, flight.result.detail);
     EXPECT_EQ(read->tracking.margin_m, flight.tracking.margin_m);
+    EXPECT_EQ(std::isnan(read->passively_safe_share), seed % 2 != 0);
     ASSERT_EQ(read->result.exposure.size(), 1U);
     EXPECT_EQ(read->result.exposure[0].region, flight.result.exposure[0].region);
     EXPECT_EQ(read->result.exposure[0].near_metres, flight.result.exposure[0].near_metres);

@@ -13,6 +13,7 @@
 #include "runtime/config.h"
 #include "tests/support/temp_folder.h"
 #include "tools/audit/app/load_flight.h"
+#include "tools/audit/audit.h"
 
 namespace tern {
 namespace {
@@ -121,6 +122,29 @@ TEST(RecordedFlight, AnAuditKeepsTheNamesOfObstacles) {
   const audit::FlightRecord record = audit::load_flight(folder.file("flight.lcm")).value();
   EXPECT_EQ(record.name_of(3), "obstacle 3 'gate'") << "after the generator's three";
   EXPECT_EQ(record.name_of(4), "obstacle 4");
+}
+
+TEST(RecordedFlight, StatesTheShareOfTheTimeThatAnAuditFindsPassivelySafe) {
+  const TempFolder folder;
+  const FlightInputs inputs{
+      TERN_SCENARIOS "/blind_corner.yaml",
+      {"simulator.sensors=[{type: camera}, {type: lidar}]", "planner.unseen=passive", "timeout_s=12"},
+      Charge::Counts};
+  const FlightRecord flown = fly(inputs, 1, folder);
+  const auto summary = nlohmann::json::parse(std::ifstream(folder.file("summary.json")));
+  EXPECT_EQ(summary["passively_safe_share"], flown.passively_safe_share);
+  const audit::Check audited = audit::check_unseen(audit::load_flight(folder.file("flight.lcm")).value());
+  EXPECT_EQ(audited.measures.front().first, "passively_safe_share");
+  const double share = audited.measures.front().second;
+  EXPECT_NEAR(flown.passively_safe_share, share, 0.02);
+  EXPECT_GT(share, 0.5);
+  EXPECT_LT(share, 1.0) << "choose a flight that is not certified all the time";
+}
+
+TEST(RecordedFlight, WithUnseenMoversIgnoredNoShareIsStated) {
+  const TempFolder folder;
+  EXPECT_TRUE(std::isnan(fly(short_hop(Charge::Counts, {"timeout_s=0.5"}), 1, folder).passively_safe_share));
+  EXPECT_TRUE(nlohmann::json::parse(std::ifstream(folder.file("summary.json")))["passively_safe_share"].is_null());
 }
 
 TEST(RecordedFlight, AnAuditKnowsTheNamesOfRecordedObstacles) {

@@ -27,6 +27,7 @@ inline FlightRecord some_flight(std::uint64_t seed) {
   flight.plans = {200, 30, 20, 5, 4};
   flight.reasons = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   flight.replan_ms.total = {12.001, 15.5, 17.0, 20.25};
+  flight.passively_safe_share = seed % 2 == 0 ? 1.0 - 0.1 / x : Tracking::kNone;
   flight.messages["PLAN"] = {260, 1, 2};
   flight.tracking = {0.05, 0.125, 0.25, 0.1 / x};
   flight.coverage.confidence = 0.99;

@@ -119,6 +119,9 @@ struct Words {
     (*this)(h.header, h.request_id, h.request, h.start, h.interval, h.control_points, h.rate_max, h.acceleration_max,
             h.path_term, h.track_term, h.unseen_term, h.texture_term);
   }
+  void add(const PlanUnseen& u) {
+    (*this)(u.header, u.request_id, u.request, u.start, u.committed_clear, u.plan_clear);
+  }
   void add(const CloudPoint& p) { (*this)(p.position, p.class_number); }
   void add(const CloudScan& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.has_classes, s.points);
@@ -188,6 +191,7 @@ template std::vector<std::uint64_t> words_of(const Goal&);
 template std::vector<std::uint64_t> words_of(const HorizonRequest&);
 template std::vector<std::uint64_t> words_of(const Plan&);
 template std::vector<std::uint64_t> words_of(const PlanTiming&);
+template std::vector<std::uint64_t> words_of(const PlanUnseen&);
 template std::vector<std::uint64_t> words_of(const SearchView&);
 template std::vector<std::uint64_t> words_of(const TrackBounds&);
 template std::vector<std::uint64_t> words_of(const Heartbeat&);
@@ -226,6 +230,10 @@ std::vector<std::int32_t> array_sizes(const FenceSet& set) {
 }
 template <>
 std::vector<std::int32_t> array_sizes(const PlanTiming&) {
+  return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const PlanUnseen&) {
   return {};
 }
 template <>

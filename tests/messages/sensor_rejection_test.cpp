@@ -34,6 +34,13 @@ TEST(Rejection, OfPlanHeading) {
   EXPECT_EQ(after<PlanHeading>([](auto& h) { h.interval.us = 0; }), "Time");
 }
 
+TEST(Rejection, OfPlanUnseen) {
+  EXPECT_EQ(after<PlanUnseen>([](auto& u) { u.request_id = 0; }), "Number");
+  EXPECT_EQ(after<PlanUnseen>([](auto& u) { u.start.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<PlanUnseen>([](auto& u) { u.committed_clear.us = -1; }), "Time");
+  EXPECT_EQ(after<PlanUnseen>([](auto& u) { u.plan_clear.us = kMaxSpan.us + 1; }), "Time");
+}
+
 TEST(Rejection, OfMapFile) {
   EXPECT_EQ(after<MapFile>([](auto& f) { f.at.us = kFarFuture; }), "Time");
   EXPECT_EQ(after<MapFile>([](auto& f) { f.format = static_cast<MapFormat>(1); }), "Enumeration");

@@ -47,14 +47,14 @@ FlightSummary flown() {
 
 TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   const json summary = json::parse(to_json(flown()));
-  EXPECT_THAT(
-      keys(summary),
-      testing::UnorderedElementsAre(
-          "outcome", "detail", "cause", "why", "recording", "scenario", "seed", "count", "settings", "flight_time_s",
-          "first_entry_s", "path_length_m", "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m",
-          "min_map_clearance_m", "limit_violations", "contacts_moving", "contacts_at_rest", "obstacles",
-          "obstacles_left_out", "requests", "answered_in_time", "second_answers", "plans", "confidence", "left_out",
-          "replan_ms", "exposure", "messages", "restarts", "said", "beside", "log", "command", "pace", "version"));
+  EXPECT_THAT(keys(summary),
+              testing::UnorderedElementsAre(
+                  "outcome", "detail", "cause", "why", "recording", "scenario", "seed", "count", "settings",
+                  "flight_time_s", "first_entry_s", "path_length_m", "mean_speed_mps", "top_speed_mps", "stops",
+                  "min_clearance_m", "min_map_clearance_m", "limit_violations", "contacts_moving", "contacts_at_rest",
+                  "obstacles", "obstacles_left_out", "requests", "answered_in_time", "second_answers", "plans",
+                  "confidence", "left_out", "passively_safe_share", "replan_ms", "exposure", "messages", "restarts",
+                  "said", "beside", "log", "command", "pace", "version"));
   EXPECT_THAT(keys(summary["settings"]),
               testing::UnorderedElementsAre("lambda_attractive", "lambda_repulsive", "v_max", "a_max", "j_max"));
   EXPECT_THAT(keys(summary["replan_ms"]),
@@ -109,6 +109,15 @@ TEST(Summary, RepeatsWhatReadyProcessesSay) {
   EXPECT_EQ(json::parse(to_json(s))["said"]["tern-mapper"], "a.ply: coordinates are rounded");
 }
 
+TEST(Summary, SaysTheShareThatWasCertifiedAgainstUnseenMovers) {
+  FlightSummary s = flown();
+  EXPECT_TRUE(json::parse(to_json(s))["passively_safe_share"].is_null());
+  EXPECT_THAT(to_text(s), testing::Not(testing::HasSubstr("unseen")));
+  s.passively_safe_share = 0.9731;
+  EXPECT_EQ(json::parse(to_json(s))["passively_safe_share"], 0.9731);
+  EXPECT_THAT(to_text(s), testing::HasSubstr("  unseen movers 97.3 % of the time certified\n"));
+}
+
 TEST(Summary, KeepsTheRangeOfASeed) {
   FlightSummary s = flown();
   s.seed = std::numeric_limits<std::uint64_t>::max();
@@ -123,10 +132,11 @@ TEST(Summary, FitsOneScreen) {
   s.left_out = {99'999, 99'999};
   s.by_level.fill(99'999);
   s.for_a_time = 99'999;
+  s.passively_safe_share = 1.0;
   std::istringstream text(to_text(s));
   int lines = 0;
   for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 100U) << line;
-  EXPECT_LE(lines, 34);
+  EXPECT_LE(lines, 35);
 }
 
 TEST(Summary, SaysThatPlansRestedOnAnIncompleteSet) {

@@ -2,6 +2,7 @@
 #include "core/world/inertial.h"
 #include "core/world/map_file.h"
 #include "core/world/plan_heading.h"
+#include "core/world/plan_unseen.h"
 #include "core/world/sighting.h"
 #include "tests/support/generator_parts.h"
 
@@ -73,6 +74,12 @@ FenceSet random_message(Rng& rng, Fill fill) {
     fence.shape = polygon;
   }
   return set;
+}
+
+template <>
+PlanUnseen random_message(Rng& rng, Fill) {
+  const auto clear = [&rng] { return Duration{integer(rng, 0, kMaxSpan.us)}; };
+  return {header(rng), integer(rng, 1, kMaxCounter), name(rng), time(rng), clear(), clear()};
 }
 
 template <>
