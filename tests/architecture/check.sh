@@ -105,8 +105,8 @@ for process in planner predictor detector estimator executor simulator mavlink r
       mavlink/frame.h | mavlink/messages.h) [[ $process == mission ]] || breach "$file includes $header: not its own" ;;
       geodesy/*) [[ $process == semantic_mapper || $process == mission ]] ||
         breach "$file includes $header: places on the earth are for mapper and mission" ;;
-      perception/*) [[ $process =~ ^(simulator|predictor|planner|detector)$ ]] ||
-        breach "$file includes $header: perception serves simulator, predictor, planner and detector" ;;
+      perception/*) [[ $process =~ ^(simulator|predictor|planner|detector|viewer/bridge)$ ]] ||
+        breach "$file includes $header: perception serves simulator, predictor, planner, detector and viewer" ;;
       executor/*) [[ $process == simulator || $process == mavlink ]] || breach "$file includes $header: not its own" ;;
       simulator/vehicle/*) [[ $file == mavlink/sim/* ]] || breach "$file includes $header: not its own" ;;
       *) breach "$file includes $header: not its own" ;;

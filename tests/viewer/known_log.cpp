@@ -26,7 +26,7 @@ class Recorder {
 
 }  // namespace
 
-void write_known_log(const std::string& path, Duration lead, double course) {
+void write_known_log(const std::string& path, Duration lead, double course, Duration sighted) {
   Recorder recorder(path);
   const KnownScene scene(kKnownLogStart, course);
   if (lead > Duration{}) recorder.publish(channels::kHeartbeat, scene.heartbeat(), kKnownLogStart - lead);
@@ -40,6 +40,7 @@ void write_known_log(const std::string& path, Duration lead, double course) {
       recorder.publish(channels::kPredictions, scene.predictions(now), now);
     }
     if (tick % 10 == 0) {
+      if (now - kKnownLogStart < sighted) recorder.publish(channels::kObstacleSightings, scene.sightings(now), now);
       const HorizonRequest request = scene.request(now, ++requests);
       recorder.publish(channels::kHorizonRequest, request, now);
       recorder.publish(channels::kPlan, scene.plan(request), now);

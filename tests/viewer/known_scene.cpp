@@ -63,6 +63,29 @@ ObservationSet KnownScene::observations(UTime now) const {
   return set;
 }
 
+SightingSet KnownScene::sightings(UTime now) const {
+  SightingSet set;
+  set.at = now;
+  SensorView& view = set.view;
+  view.sensor_position = state(now).motion.p;
+  const Eigen::Quaterniond q =
+      Eigen::AngleAxisd(std::atan2(ahead_.y(), ahead_.x()), Vec3::UnitZ()) * Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
+  view.q_WC = {q.w(), q.x(), q.y(), q.z()};
+  view.left = view.right = 0.7;
+  view.up = view.down = 0.5;
+  view.range_m = 10.0;
+  view.rows = 3;
+  view.columns = 4;
+  view.depths = {kFarDepth, kFarDepth, kFarDepth, kFarDepth, 500, 400, kBlindDepth, kFarDepth, 200, 200, 200, 200};
+  Sighting pillar;
+  pillar.lower = Vec3(9.8, 2.8, 0.0);
+  pillar.upper = Vec3(10.0, 3.2, 2.0);
+  pillar.bounds = {BoundSight::Face,     BoundSight::Unseen,   BoundSight::Whole,
+                   BoundSight::Occluded, BoundSight::Touching, BoundSight::Cut};
+  set.sightings.push_back(pillar);
+  return set;
+}
+
 TrackSet KnownScene::predictions(UTime now) const {
   TrackSet set;
   set.made_at = now;

@@ -6,6 +6,7 @@
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
 #include "core/world/search_view.h"
+#include "core/world/sighting.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
@@ -28,6 +29,8 @@ class KnownScene {
   [[nodiscard]] ObstacleTruth truth(UTime now) const;
   /// Detects every mover, by its id.
   [[nodiscard]] ObservationSet observations(UTime now) const;
+  /// A camera that looks along the course: a picture of 3 × 4 cells, and pillar 10 as its sighting.
+  [[nodiscard]] SightingSet sightings(UTime now) const;
   /// Predicts moving obstacles by one piece of 3.5 s at their present velocity, α 0.2 m.
   [[nodiscard]] TrackSet predictions(UTime now) const;
   /// Requests a plan from the vehicle's position to 4 m ahead.

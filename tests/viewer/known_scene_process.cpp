@@ -1,5 +1,6 @@
 // known_scene_process: publishes the known scene, for the browser tests. With KNOWN_LOG=FILE it writes the scene to
-// that log instead; KNOWN_LEAD_S and KNOWN_COURSE are options of write_known_log. It prints each received goal.
+// that log instead; KNOWN_LEAD_S, KNOWN_COURSE and KNOWN_SIGHTED_S are options of write_known_log. It prints each
+// received goal.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -59,7 +60,8 @@ int main(int argc, char** argv) {
       const char* text = std::getenv(name);
       return text == nullptr ? 0.0 : std::atof(text);
     };
-    tern::support::write_known_log(log, tern::Duration::from_seconds(number("KNOWN_LEAD_S")), number("KNOWN_COURSE"));
+    const auto seconds = [&](const char* name) { return tern::Duration::from_seconds(number(name)); };
+    tern::support::write_known_log(log, seconds("KNOWN_LEAD_S"), number("KNOWN_COURSE"), seconds("KNOWN_SIGHTED_S"));
     return 0;
   }
   const tern::ProcessDescription description{.name = "tern-scene", .section = "", .summary = "A known scene"};

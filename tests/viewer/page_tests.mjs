@@ -9,6 +9,8 @@ const { countUpTo, eventNear, placeAt, valueAt } = await source('time_rows');
 const { Tape } = await source('tape');
 const { label } = await source('labels');
 const { mapInWords, obstacleInWords } = await source('words');
+const { BOUNDS, boxEdges, boxInPicture, depthColor, project } = await source('projection');
+const { ageInWords } = await source('pictures');
 
 /** A renderer whose frames take `fixed` ms and `perPixels` ms at full size. @return ms until the pixels stayed, and the last frame's */
 function settle(quality, fixed, perPixels, seconds = 30) {
@@ -273,4 +275,63 @@ test('words: what was clicked on', () => {
   assert.equal(
     mapInWords({ point: at, layer: 'walls' }, known),
     'Occupied: a wall of the map; here at 0.0, 3.0, 1.0; 3.00 m from the vehicle\'s centre; the vehicle\'s nearest wall is 0.40 m from its body.');
+});
+
+/** A sensor at (1, 2, 3) that looks along W's y, level. */
+const lookingNorth = (kind) => ({
+  kind, p: [1, 2, 3], q: [Math.SQRT1_2, -Math.SQRT1_2, 0, 0], left: 0.6, right: 0.4, up: 0.3, down: 0.2, range: 10,
+});
+
+test('projection: the axis, the edges of the picture, and what is behind', () => {
+  const camera = lookingNorth('camera');
+  const near = (at, expected) => assert.ok(at.every((x, k) => Math.abs(x - expected[k]) < 1e-9), `${at}, not ${expected}`);
+  const axis = [Math.tan(0.6) / (Math.tan(0.6) + Math.tan(0.4)), Math.tan(0.3) / (Math.tan(0.3) + Math.tan(0.2))];
+  near(project(camera, [1, 7, 3]), axis);
+  near(project(camera, [1 - 5 * Math.tan(0.6), 7, 3 + 5 * Math.tan(0.3)]), [0, 0]);
+  near(project(camera, [1 + 5 * Math.tan(0.4), 7, 3 - 5 * Math.tan(0.2)]), [1, 1]);
+  assert.equal(project(camera, [1, 1, 3]), null);
+  const lidar = lookingNorth('lidar');
+  near(project(lidar, [1, 7, 3]), [0.6, 0.6]);
+  const along = (azimuth, elevation) =>
+    [1 + 4 * Math.cos(elevation) * Math.sin(azimuth), 2 + 4 * Math.cos(elevation) * Math.cos(azimuth), 3 + 4 * Math.sin(elevation)];
+  near(project(lidar, along(-0.6, 0.3)), [0, 0]);
+  near(project(lidar, along(0.4, -0.2)), [1, 1]);
+});
+
+test('projection: a box in the picture has the edges that face the sensor, coloured by what is known the least', () => {
+  const [face, whole, occluded, , touching, unseen] = BOUNDS.keys();
+  const bounds = [occluded, whole, face, unseen, touching, whole]; // −x, +x, −y (towards the sensor), +y, −z, +z
+  const [lower, upper] = [[0, 6, 2], [2, 7, 4]];
+  const count = (lines) => lines.reduce((counts, { state }) => ({ ...counts, [state]: (counts[state] ?? 0) + 1 }), {});
+  assert.deepEqual(count(boxEdges(lower, upper, bounds)), { [whole]: 3, [occluded]: 3, [touching]: 2, [unseen]: 4 });
+  for (const kind of ['camera', 'lidar']) {
+    const lines = boxInPicture(lookingNorth(kind), lower, upper, bounds);
+    assert.deepEqual(count(lines), { [whole]: 2, [occluded]: 1, [touching]: 1 }, 'the sensor is before it: one face');
+    const places = lines.flatMap(({ points }) => points);
+    const corners = [[0, 6, 2], [2, 6, 4]].map((corner) => project(lookingNorth(kind), corner));
+    for (const axis of [0, 1]) {
+      const all = places.map((at) => at[axis]);
+      assert.ok(Math.min(...all) <= Math.min(...corners.map((at) => at[axis])) + 1e-9);
+      assert.ok(Math.max(...all) >= Math.max(...corners.map((at) => at[axis])) - 1e-9);
+    }
+  }
+  const around = { ...lookingNorth('lidar'), left: Math.PI, right: Math.PI };
+  for (const { points } of boxInPicture(around, [0, -3, 2], [2, -2, 4], bounds)) { // it lies across the seam
+    for (let k = 1; k < points.length; ++k) assert.ok(Math.abs(points[k][0] - points[k - 1][0]) < 0.2);
+  }
+});
+
+test('projection: depths are greys, and neither empty nor dark cells are', () => {
+  const grey = [0.1, 2, 5, 9.9].map((m) => depthColor(10 * m, 10));
+  assert.ok(grey.every(([red, green, blue]) => red === green && green === blue));
+  assert.ok(grey.every(([red], k) => k === 0 || red < grey[k - 1][0] - 20), 'farther is darker');
+  const [far, blind] = [depthColor(-1, 10), depthColor(0, 10)];
+  assert.ok(far[2] > far[0] + 40, 'nothing in range is blue');
+  assert.ok(Math.max(...blind) < grey[3][0] - 40, 'not measured is darker than any depth');
+});
+
+test('pictures: an age is told, and one beyond the limit is called old', () => {
+  assert.equal(ageInWords(0.12), '0.1 s ago');
+  assert.equal(ageInWords(-0.01), '0.0 s ago');
+  assert.equal(ageInWords(2.34), 'old: 2.3 s');
 });

@@ -68,11 +68,14 @@ export async function awaitPage(viewer) {
 
 export const startScene = () => start(`${TERN_BIN}/viewer_known_scene_process`, []);
 
-/** The known scene as a log, which begins `lead` s before world time, flown on a course (rad from x to y); its path. */
-export async function knownLog(lead = 0, course = 0) {
-  const path = join(work, `flight-${course}.lcm`);
+/**
+ * The known scene as a log, which begins `lead` s before world time, flown on a course (rad from x to y), with a camera for the first
+ * `sighted` s; its path.
+ */
+export async function knownLog(lead = 0, course = 0, sighted = 0) {
+  const path = join(work, `flight-${course}-${sighted}.lcm`);
   const code = await start(`${TERN_BIN}/viewer_known_scene_process`, [],
-    { KNOWN_LOG: path, KNOWN_LEAD_S: `${lead}`, KNOWN_COURSE: `${course}` }).gone;
+    { KNOWN_LOG: path, KNOWN_LEAD_S: `${lead}`, KNOWN_COURSE: `${course}`, KNOWN_SIGHTED_S: `${sighted}` }).gone;
   expect('the log is written', code === 0);
   return path;
 }

@@ -20,7 +20,7 @@ const looks = (page) => page.evaluate(() => {
 
 await run({
   async no_panel_hides_the_vehicle_that_is_followed() {
-    const viewer = await startViewer('--log', await knownLog());
+    const viewer = await startViewer('--log', await knownLog(0, 0, 20));
     const page = await openPage(viewer.url);
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
     await pauseAt(page, 10);
@@ -42,13 +42,13 @@ await run({
   },
 
   async no_two_panels_overlap() {
-    const viewer = await startViewer('--log', await knownLog());
+    const viewer = await startViewer('--log', await knownLog(0, 0, 20));
     const page = await openPage(viewer.url);
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
-    for (const [width, height] of [[390, 844], [844, 390], [667, 375], [360, 640], [800, 600], [1024, 768], [1600, 1000]]) {
+    for (const [width, height] of [[390, 844], [844, 390], [667, 375], [360, 640], [800, 600], [1024, 768], [1190, 700], [1600, 1000]]) {
       await page.setViewportSize({ width, height });
       const overlaps = await page.evaluate(() => {
-        const boxes = ['#head', '#flight', '#side', 'footer'].map((name) => [name, document.querySelector(name).getBoundingClientRect()]);
+        const boxes = ['#head', '#flight', '#pictures', '#side', 'footer'].map((name) => [name, document.querySelector(name).getBoundingClientRect()]);
         const shown = boxes.filter(([, box]) => box.width > 0);
         const bad = shown.filter(([, b]) => b.left < 0 || b.top < 0 || b.right > innerWidth || b.bottom > innerHeight);
         for (const [one, a] of shown) {
@@ -60,6 +60,37 @@ await run({
       });
       expect(`at ${width}×${height}: ${overlaps}`, overlaps.length === 0);
     }
+  },
+
+  async a_panel_has_the_picture_of_each_sensor_and_says_when_it_is_old() {
+    const viewer = await startViewer('--log', await knownLog(0, 0, 10));
+    const page = await openPage(viewer.url, undefined, '#t=5&cam=top');
+    await page.setViewportSize({ width: 1600, height: 900 });
+    await pausedAt(page, 5);
+    await shows(page, 'a sighting', (s) => s.sightings === 1);
+    const told = () => page.$$eval('.picture', (all) => all.map((one) => [one.textContent, one.classList.contains('old')].join()).join());
+    await eventually('its picture is new', async () => (await told()) === 'camera 00.0 s ago,false');
+    const colors = await page.$eval('.picture canvas', (canvas) => [[0.1, 0.1], [0.6, 0.5], [0.1, 0.9]].map(([right, down]) =>
+      [...canvas.getContext('2d').getImageData(right * canvas.width, down * canvas.height, 1, 1).data].slice(0, 3).join()));
+    expect(`nothing in range, not measured, 2 m: ${colors.join(' ')}`, colors.join(' ') === '18,58,99 0,0,0 202,202,202');
+    const isUnseen = ([x, y]) => page.evaluate(([u, v]) => {
+      const { cell, runs } = window.tern.known.sight.unseen;
+      const [column, row] = [Math.floor(u / cell), Math.floor(v / cell)];
+      return runs.some((_, k) => k % 3 === 0 && runs[k + 1] === row && runs[k] <= column && column < runs[k] + runs[k + 2]);
+    }, [x, y]);
+    expect('it was seen ahead', !(await isUnseen([6.6, 0.6])));
+    expect('and not behind', await isUnseen([0, 0.6]));
+    await pauseAt(page, 15);
+    await eventually('its picture is old', async () => (await told()) === 'camera 0old: 5.1 s,true');
+    await eventually('then nothing is seen', () => isUnseen([16.6, 0.6]));
+    await shows(page, 'no box in the scene', (s) => s.sightings === 0);
+    await page.uncheck('input[name=sightings]');
+    expect('the layer hides the panel', !(await page.isVisible('#pictures')));
+    const alone = await openPage((await startViewer('--log', await knownLog())).url);
+    await alone.setViewportSize({ width: 1600, height: 900 });
+    await shows(alone, 'the scene', (s) => s.obstacles === OBSTACLES);
+    expect('no sensor, no panel and no layer', !(await alone.isVisible('#pictures')) && !(await alone.isVisible('[data-layer=unseen]')));
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
   },
 
   async a_phone_reaches_every_button() {

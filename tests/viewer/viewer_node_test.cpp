@@ -88,6 +88,39 @@ TEST(LogPlayer, AJumpKnowsWhatAnAnswerWasGivenWhoseRequestIsNotTheNewest) {
   EXPECT_DOUBLE_EQ(scene.allowed_ms(), 70.0);
 }
 
+TEST(LogPlayer, AJumpShowsTheNewestViewOfEachSensorAndWhatWasSeenInTheSecondBefore) {
+  const TempFolder folder;
+  const support::KnownScene known(kKnownLogStart);
+  const auto at = [](int k) { return kKnownLogStart + Duration{k * 20'000}; };
+  {
+    auto writer = LogWriter::open(folder.file("flight.lcm"), 0);
+    ASSERT_TRUE(writer);
+    for (int k = 0; k < 200; ++k) {  // the second sensor sends every fifth time; both are blind at the end
+      SightingSet set = known.sightings(at(k));
+      if (k > 190) set.view.depths.assign(set.view.depths.size(), kBlindDepth);
+      set.header = {{kKnownLogStart.us, k + 1}, at(k)};
+      writer->append(channels::kObstacleSightings.name, at(k).us, encode(set));
+      if (k % 5 != 0) continue;
+      set.sensor_id = 1;
+      writer->append(channels::kObstacleSightings.name, at(k).us, encode(set));
+    }
+  }
+  auto player = LogPlayer::open(folder.file("flight.lcm"), "");
+  ASSERT_TRUE(player) << player.error().message;
+  Scene scene;
+  SceneIntake intake(scene);
+  player->seek(player->end(), scene, intake);
+  ASSERT_EQ(scene.sightings().size(), 2U);
+  EXPECT_EQ(scene.sightings().at(0).at, at(199));
+  EXPECT_EQ(scene.sightings().at(1).at, at(195));
+  const auto cells = [&](UTime since) {
+    int count = 0;
+    for (const auto& run : scene.seen().unseen(known.state(at(199)).motion.p, since)) count += run.count;
+    return count;
+  };
+  EXPECT_LT(cells(at(150)), cells(at(191))) << "nothing is measured since, but before";
+}
+
 TEST_F(LogPlayerTest, GoesToAnyTimeInAnyOrder) {
   auto player = LogPlayer::open(log(), "");
   ASSERT_TRUE(player);

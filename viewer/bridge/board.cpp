@@ -9,9 +9,10 @@
 namespace tern {
 
 const char* to_string(Topic topic) {
-  constexpr std::array<const char*, kTopics> kNames = {
-      "session", "player", "state", "truth",  "tracks", "request", "plan",   "timing", "hulls", "tracked", "search",
-      "map",     "health", "goal",  "result", "chart",  "path",    "fields", "events", "ghost", "views",   "estimate"};
+  constexpr std::array<const char*, kTopics> kNames = {"session", "player", "state",  "truth",    "tracks", "request",
+                                                       "plan",    "timing", "hulls",  "tracked",  "search", "map",
+                                                       "health",  "goal",   "result", "chart",    "path",   "fields",
+                                                       "events",  "ghost",  "views",  "estimate", "sight"};
   return kNames.at(idx(topic));
 }
 

@@ -34,8 +34,9 @@ enum class Topic : std::uint8_t {
   Ghost,     ///< the path of another log
   Views,     ///< fields of view of the sensors, and the planned heading
   Estimate,  ///< the estimator's pose with its bound, the true vehicle beside it, and the features in view
+  Sight,     ///< depth pictures of the sensors with their sightings, and what no sensor has seen lately
 };
-inline constexpr int kTopics = 22;
+inline constexpr int kTopics = 23;
 const char* to_string(Topic topic);
 
 /// Holds the newest text per topic. Thread-safe.

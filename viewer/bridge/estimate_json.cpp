@@ -72,6 +72,7 @@ void write_features(JsonWriter& json, const Scene& scene) {
       const Vec3 p_C = frame->baseline_m / disparity * Vec3(feature.left.x(), feature.left.y(), 1.0);
       const Vec3 p = place_of(odometry) + q_WB * (frame->p_BC + turn(frame->q_BC) * p_C);
       json.point(p).number(is_on_mover(scene, p, frame->at) ? 1.0 : 0.0);
+      json.number(feature.left.x()).number(feature.left.y());
     }
   }
   json.end_list();
@@ -93,6 +94,7 @@ std::string estimate_json(const Scene& scene) {
     json.key("truth").vec3(*truth).key("truth_yaw").number(scene.true_state()->yaw);
   }
   json.key("blind").flag(odometry.state == EstimatorState::Blind).key("tracks").integer(odometry.tracks);
+  if (scene.features()) json.key("features_us").integer(scene.features()->at.us);
   json.key("features");
   write_features(json, scene);
   return json.end_object().take();

@@ -35,6 +35,7 @@ void Scene::receive(const UavState& message) {
   state_ = message;
   remember_state();
   for (const Topic topic : {Topic::State, Topic::Chart, Topic::Path, Topic::Events}) mark(topic);
+  if (!sightings_.empty()) mark(Topic::Sight);  ///< what was seen lately depends on the time
 }
 
 void Scene::remember_state() {
@@ -72,7 +73,9 @@ void Scene::receive(const ObservationSet& message) {
 void Scene::receive(const SightingSet& message) {
   if (!sightings_.contains(message.sensor_id) && sightings_.size() >= kMaxSensors) return;
   sightings_[message.sensor_id] = message;
+  seen_.add(message);
   mark(Topic::Views);
+  mark(Topic::Sight);
 }
 
 void Scene::receive(TrackSet complete_set) {

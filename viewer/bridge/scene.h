@@ -21,6 +21,7 @@
 #include "viewer/bridge/board.h"
 #include "viewer/bridge/flight_events.h"
 #include "viewer/bridge/flight_history.h"
+#include "viewer/bridge/seen_cells.h"
 #include "viewer/bridge/track_ages.h"
 #include "viewer/bridge/voxel_faces.h"
 #include "viewer/bridge/world_time.h"
@@ -105,6 +106,8 @@ class Scene {
   [[nodiscard]] const std::optional<PlanHeading>& heading() const { return heading_; }
   /// Returns the newest frame of each sensor with a view, by its id.
   [[nodiscard]] const std::map<std::int32_t, SightingSet>& sightings() const { return sightings_; }
+  /// Returns where these sensors have seen nothing.
+  [[nodiscard]] const SeenCells& seen() const { return seen_; }
   /// Returns the estimator's newest ODOMETRY and FEATURE_TRACKS.
   [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
   [[nodiscard]] const std::optional<FeatureFrame>& features() const { return features_; }
@@ -162,6 +165,7 @@ class Scene {
   std::optional<Plan> plan_;
   std::optional<PlanHeading> heading_;
   std::map<std::int32_t, SightingSet> sightings_;
+  SeenCells seen_;
   std::optional<Odometry> odometry_;
   std::optional<FeatureFrame> features_;
   std::optional<PlanTiming> timing_;

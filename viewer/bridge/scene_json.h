@@ -25,8 +25,14 @@ std::string tracked_json(const Scene& scene, const TrackAges& ages);
 /// Outlines of the fields of view, from the newest frame of each sensor, two points per line. The heading along the
 /// newest plan: [x, y, z, yaw, …].
 std::string views_json(const Scene& scene);
+/// The newest frame of each sensor with a view, and the time of the vehicle's state, or else of the newest frame. Depths
+/// are in decimetres, row by row; −1: nothing within the range, 0: not measured. Sightings have six numbers of
+/// BoundSight each. "unseen": the cells about the vehicle that no sensor has seen for a second, as [x, y, count, …]
+/// (SeenCells::Run); absent before the first state.
+std::string sight_json(const Scene& scene);
 /// The estimate of the position, the axes of its 99 % ellipsoid, and the true vehicle. The axes are half-lengths and a
-/// quaternion w, x, y, z. The features of the newest frame are [x, y, z, moves, …], with 1 on a moving obstacle.
+/// quaternion w, x, y, z. The features of the newest frame are [x, y, z, moves, u, v, …]: 1 on a moving
+/// obstacle, and the coordinates in the left camera.
 std::string estimate_json(const Scene& scene);
 /// Distance of the estimate from the truth and the half-length of the ellipsoid's longest axis, m; NaN if unknown.
 NumberFields estimate_numbers(const Scene& scene);

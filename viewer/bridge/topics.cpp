@@ -48,6 +48,7 @@ std::string topic_json(Topic topic, const TopicSource& source) {
     case Topic::Search: return search_json(scene);
     case Topic::Views: return views_json(scene);
     case Topic::Estimate: return estimate_json(scene);
+    case Topic::Sight: return sight_json(scene);
     case Topic::Map: return map_json(scene);
     case Topic::Health: return health_json(scene, source.now);
     case Topic::Goal: return goal_json(scene);

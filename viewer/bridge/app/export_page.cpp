@@ -43,6 +43,7 @@ Duration spacing(Topic topic) {
     case Topic::Truth: return Duration{100'000};
     case Topic::Tracks:
     case Topic::Tracked:
+    case Topic::Sight:
     case Topic::Hulls: return Duration{200'000};
     case Topic::Health: return Duration{1'000'000};
     default: return kStep;

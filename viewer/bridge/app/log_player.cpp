@@ -27,6 +27,9 @@ std::size_t messages_needed(std::string_view channel) {
   return 1;
 }
 
+/// A jump reads the views of this time before it, for what was seen lately.
+constexpr Duration kViewsBefore{1'000'000};
+
 /// The channels of charts, path and timeline.
 bool is_remembered(std::string_view channel) {
   constexpr std::tuple kRemembered{channels::kUavState,       channels::kVehicleTruth, channels::kObstacleTruth,
@@ -146,7 +149,9 @@ void LogPlayer::seek(UTime t, Scene& scene, SceneIntake& intake) {
     if (index_.channels[c] == channels::kSemanticMap.name) {
       feed_map(next_, channel, scene, intake);
     } else {
-      feed_newest(next_, channel, messages_needed(index_.channels[c]), intake);
+      const bool are_views = index_.channels[c] == channels::kObstacleSightings.name;
+      feed_newest(next_, channel, are_views ? views_before(next_, channel) : messages_needed(index_.channels[c]),
+                  intake);
     }
   }
 }
@@ -183,6 +188,13 @@ void LogPlayer::feed_newest(std::size_t end, int channel, std::size_t most, Scen
   const auto stop = std::lower_bound(entries.begin(), entries.end(), end);
   const auto have = idx(stop - entries.begin());
   for (auto it = stop - static_cast<std::ptrdiff_t>(std::min(have, most)); it != stop; ++it) feed(*it, intake);
+}
+
+std::size_t LogPlayer::views_before(std::size_t end, int channel) const {
+  const auto& entries = by_channel_[idx(channel)];
+  const auto stop = std::lower_bound(entries.begin(), entries.end(), end);
+  const auto first = std::lower_bound(entries.begin(), stop, first_after(position_ - kViewsBefore));
+  return std::max(kMaxSensors, idx(stop - first));
 }
 
 void LogPlayer::feed_map(std::size_t end, int channel, const Scene& scene, SceneIntake& intake) {

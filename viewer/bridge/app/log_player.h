@@ -69,6 +69,8 @@ class LogPlayer {
   [[nodiscard]] std::size_t first_after(UTime t) const;
   void feed(std::size_t entry, SceneIntake& intake);
   void feed_newest(std::size_t end, int channel, std::size_t most, SceneIntake& intake);
+  /// Returns how many of a channel's messages before `end` a jump reads for the views of the sensors.
+  [[nodiscard]] std::size_t views_before(std::size_t end, int channel) const;
   void feed_map(std::size_t end, int channel, const Scene& scene, SceneIntake& intake);
   const std::vector<std::uint8_t>& read(const LogIndex::Entry& entry);
 

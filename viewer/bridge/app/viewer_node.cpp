@@ -27,6 +27,7 @@ Duration period(Topic topic) {
     case Topic::Tracks:
     case Topic::Tracked:
     case Topic::Hulls: return Duration{200'000};
+    case Topic::Sight: return Duration{100'000};
     case Topic::Chart:
     case Topic::Path:
     case Topic::Fields:

@@ -46,11 +46,11 @@ export class Estimate {
 
   /**
    * @param message  {p, half, q, truth, truth_yaw, features}: the 99 % ellipsoid has the half-axes `half`, turned by the
-   * quaternion q (w, x, y, z); features are [x, y, z, moves, …]; null: no valid estimate
+   * quaternion q (w, x, y, z); features are [x, y, z, moves, right, down, …]; null: no valid estimate
    */
   take(message) {
-    const features = numbers(message?.features ?? [], 4);
-    const rows = Array.from({ length: features.length / 4 }, (_, k) => features.slice(4 * k, 4 * k + 4));
+    const features = numbers(message?.features ?? [], 6);
+    const rows = Array.from({ length: features.length / 6 }, (_, k) => features.slice(6 * k, 6 * k + 6));
     const places = (moves) => rows.filter((row) => row[3] === moves).flatMap((row) => row.slice(0, 3));
     fill(this.features, places(0));
     fill(this.moving, places(1));

@@ -1,5 +1,6 @@
 // The layers, each with the colours in which it is drawn: their switches are the scene's legend.
 import { palette } from './palette.js';
+import { BOUNDS } from './projection.js';
 
 const speeds = `linear-gradient(90deg, ${palette.speeds.join(', ')})`;
 
@@ -15,6 +16,8 @@ export const LAYERS = [
   { name: 'hulls', on: false, says: 'where moving obstacles may be during the first second of the plan', colors: [palette.hull] },
   { name: 'tracks', on: false, says: 'detections; predicted obstacles with α, by id and age', colors: [palette.detection, palette.track] },
   { name: 'views', on: true, says: 'fields of view of the sensors, and the planned heading', colors: [palette.view] },
+  { name: 'sightings', on: true, says: 'boxes of the newest sightings, and pictures of the sensors: green bounds are measured', colors: [BOUNDS[1].color, BOUNDS[2].color] },
+  { name: 'unseen', on: true, says: 'ground under what no sensor has seen for a second', colors: [palette.unseen] },
   { name: 'estimate', on: true, says: 'the estimate with its 99 % bound, the true vehicle, features in view', colors: [palette.estimate, palette.truth, palette.feature] },
   { name: 'planes', on: false, says: 'of the certificate, where bounding boxes do not separate plan and obstacle', colors: [palette.plane] },
   { name: 'search', on: false, says: 'tree of the last search', colors: [palette.search] },

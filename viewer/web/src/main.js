@@ -14,9 +14,11 @@ import { makeSwitches, offer, ON_DEMAND, showCount } from './layers.js';
 import { Obstacles } from './obstacles.js';
 import { watchFreeArea } from './panels.js';
 import { Pointer } from './picking.js';
+import { Pictures } from './pictures.js';
 import { Player } from './player.js';
 import { Proofs } from './proofs.js';
 import { Regions } from './regions.js';
+import { Sight } from './sight.js';
 import { Stream } from './stream.js';
 import { readTape, Tape } from './tape.js';
 import { QUIET } from './time_rows.js';
@@ -41,6 +43,8 @@ const obstacles = new Obstacles(world, vehicle.p);
 const tracks = new Tracks(world.scene, vehicle.p);
 const views = new Views(world.scene);
 const estimate = new Estimate(world.scene);
+const sight = new Sight(world.scene);
+const pictures = new Pictures();
 const tags = new Tags(document.getElementById('tags'));
 const ghost = new Ghost(world.scene);
 const layers = {};
@@ -136,8 +140,14 @@ const topics = {
     views.take(message);
     offer('views', message);
   },
+  sight(message) {
+    sight.take(message);
+    pictures.take(message);
+    for (const layer of ['sightings', 'unseen']) offer(layer, message);
+  },
   estimate(message) {
     estimate.take(message);
+    pictures.takeFeatures(message);
     offer('estimate', message);
     if (message && !known.estimate) charts.offer(['estimate.error_m', 'estimate.bound_m']);
   },
@@ -172,15 +182,18 @@ function takeReply(message) {
   }
 }
 
+/** Hides the layers that few flights have. */
+function offerNothing() {
+  for (const layer of ['ghost', 'views', 'estimate', 'sightings', 'unseen']) offer(layer, false);
+}
+
 /** Starts over: another bridge, another flight, or its log. */
 function forget() {
   for (const key of Object.keys(known)) delete known[key];
-  for (const part of [obstacles, trajectories, proofs, tracks, views, estimate, vehicle, regions, ghost, cameras]) part.clear();
+  for (const part of [obstacles, trajectories, proofs, tracks, views, estimate, sight, pictures, vehicle, regions, ghost, cameras]) part.clear();
   hud.forget();
   timeline.takeEvents([]);
-  offer('ghost', false);
-  offer('views', false);
-  offer('estimate', false);
+  offerNothing();
 }
 
 // Layers -------------------------------------------------------------------------------------------------------------
@@ -192,7 +205,7 @@ function sendSubscriptions() {
 
 function setLayer(name, on) {
   layers[name] = on;
-  for (const part of [trajectories, proofs, tracks, views, estimate, regions, ghost]) part.show(name, on);
+  for (const part of [trajectories, proofs, tracks, views, estimate, sight, pictures, regions, ghost]) part.show(name, on);
   if (name === 'obstacles') obstacles.show(on);
   if (ON_DEMAND.includes(name)) send({ layers: ON_DEMAND.filter((other) => layers[other]) });
   if (name === 'planes') proofs.takePlanes(on ? known.plan : null, obstacles.pickedId);
@@ -200,9 +213,7 @@ function setLayer(name, on) {
   if (name === 'search' && on && !known.search) hud.toast('the planner publishes it with --set planner.publish_search=true');
 }
 makeSwitches(document.getElementById('layers'), setLayer);
-offer('ghost', false);
-offer('views', false);
-offer('estimate', false);
+offerNothing();
 
 let cutShare = 1;
 function showCut() {
@@ -306,6 +317,7 @@ function picture(now, seconds) {
     ghost.draw(flightTime(now_us));
   }
   const isRead = hud.draw(now) || !world.thrifty; // without a GPU every change of a panel costs as much as the scene
+  if (isRead) pictures.draw(now_us);
   if (isRead && (vehicle.state || known.player)) showTime(flightTime(known.player?.at_us ?? clock.at_us));
   cameras.update();
   obstacles.draw(now_us, world.camera);
@@ -357,6 +369,7 @@ window.tern = {
     obstacles: obstacles.count,
     hulls: proofs.counts.hulls,
     tracks: tracks.count,
+    sightings: sight.count,
     planes: proofs.counts.planes,
     nodes: proofs.counts.search,
     regions: regions.group.children.length,

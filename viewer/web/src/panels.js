@@ -1,7 +1,7 @@
 // The part of the window that the panels leave free.
 
 const LEAST_SHARE = 0.2; // of the window, per axis; with less free, the scene also uses the area below the panels
-const PANELS = ['#head', '#flight', '#side', 'footer'];
+const PANELS = ['#head', '#flight', '#pictures', '#side', 'footer'];
 
 /** {left, right, top, bottom}, CSS pixels. The inspector is ignored, since the user opens and closes it. */
 function freeArea() {
@@ -22,7 +22,10 @@ function freeArea() {
 
 /** Reports the free area at once, and whenever window or panels change their size. @return {look()}, to measure at once */
 export function watchFreeArea(tell) {
-  const look = () => tell(freeArea());
+  const look = () => {
+    document.body.style.setProperty('--foot', `${document.querySelector('footer').offsetHeight}px`);
+    tell(freeArea());
+  };
   const watcher = new ResizeObserver(look);
   for (const selector of PANELS) watcher.observe(document.querySelector(selector));
   window.addEventListener('resize', look);
