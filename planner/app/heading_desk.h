@@ -14,9 +14,11 @@
 
 namespace tern {
 
-/// Returns plan_heading() for the tracks of a world, and with an error price for its texture.
+/// Returns plan_heading() for the tracks of a world, with `planner.unseen: passive` and `unseen_movers.looks` for its
+/// unseen space, and with an error price for its texture.
 std::optional<PlanHeading> plan_heading_in(const PlanningWorld& world, const HorizonRequest& request, const Plan& plan,
-                                           const HeadingLimits& limits, const HeadingStart& start);
+                                           const PlannerConfig& config, const HeadingLimits& limits,
+                                           const HeadingStart& start);
 
 /// Plans and publishes headings (planner/heading/heading_planner.h). PLAN never waits for it.
 ///
@@ -24,7 +26,8 @@ std::optional<PlanHeading> plan_heading_in(const PlanningWorld& world, const Hor
 /// that trajectory, it starts in the direction of flight. Thread-safe.
 class HeadingDesk {
  public:
-  HeadingDesk(Bus& bus, const HeadingLimits& limits) : bus_(bus), limits_(limits) {}
+  HeadingDesk(Bus& bus, const PlannerConfig& config, const HeadingLimits& limits)
+      : bus_(bus), config_(config), limits_(limits) {}
 
   /// Planning of a request begins, in this world.
   void begin(const HorizonRequest& request, const PlanningWorld& world);
@@ -33,6 +36,7 @@ class HeadingDesk {
 
  private:
   Bus& bus_;
+  PlannerConfig config_;
   HeadingLimits limits_;
   std::mutex mutex_;
   std::optional<HorizonRequest> request_;

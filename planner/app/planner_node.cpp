@@ -57,7 +57,7 @@ PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& conf
       config_(config),
       execution_(execution),
       intake_(bus, config, uav, execution.threaded, std::move(places)),
-      headings_(bus, uav.heading),
+      headings_(bus, config, uav.heading),
       unseen_desk_(bus),
       desk_(bus, configuration_hash) {
   if (config.unseen == UnseenMode::Passive) unseen_.emplace(bus, config.unseen_movers, uav.start);

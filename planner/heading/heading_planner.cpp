@@ -81,19 +81,26 @@ std::optional<YawSample> flight_direction(const HorizonRequest& request, const P
   return std::nullopt;
 }
 
+bool looks_around(const HorizonRequest& request, const Plan& plan, double wait_s) {
+  const bool stays = plan.outcome == PlanOutcome::KeepCommitted && plan.trajectory.end() <= request.t_s;
+  return stays && (request.t_s - plan.trajectory.end()).seconds() <= kLooksAroundShare * wait_s;
+}
+
 std::optional<PlanHeading> plan_heading(const HorizonRequest& request, const Plan& plan,
                                         const std::vector<Track>& tracks, const HeadingLimits& limits,
-                                        const HeadingStart& start, const LookTerm* texture) {
+                                        const HeadingStart& start, const LookReasons& reasons) {
   if (plan.outcome == PlanOutcome::NoPlan) return std::nullopt;
   const TimedSpline& trajectory = plan.trajectory;
   const std::vector<LookInstant> instants = look_instants(trajectory, request.t_s);
   const TargetLists path = targets_of(PathTerm(trajectory, plan.local_goal, request.limits), instants);
   const TargetLists seen = targets_of(TrackTerm(tracks, trajectory, request.t_s), instants);
   TargetLists all(instants.size());
-  const bool sees_all_round = texture != nullptr && limits.view_deg >= kAllRound;
-  if (!sees_all_round) add(path, all);
+  const TargetLists unseen = reasons.unseen ? targets_of(*reasons.unseen, instants) : TargetLists(instants.size());
+  const bool sees_all_round = reasons.texture != nullptr && limits.view_deg >= kAllRound;
+  if (!sees_all_round && !reasons.looks_around) add(path, all);
   if (!sees_all_round) add(seen, all);
-  if (texture != nullptr) add(targets_of(*texture, instants), all);
+  if (!sees_all_round) add(unseen, all);
+  if (reasons.texture != nullptr) add(targets_of(*reasons.texture, instants), all);
   auto points = search_heading(start, trajectory.interval, all, limits);
   if (!points) return std::nullopt;
   PlanHeading heading;
@@ -106,6 +113,7 @@ std::optional<PlanHeading> plan_heading(const HorizonRequest& request, const Pla
   heading.acceleration_max = to_radians(limits.acceleration_max_deg_s2);
   heading.path_term = value_along(heading, path, limits);
   heading.track_term = value_along(heading, seen, limits);
+  heading.unseen_term = value_along(heading, unseen, limits);
   return heading;
 }
 

@@ -221,6 +221,16 @@ inline constexpr std::size_t kTracksSeen = 8;
 /// way of a fast one comes first, and tracks turn the view of one that waits.
 inline constexpr double kPathWeight = static_cast<double>(kTracksSeen) * kAlphaCap / kLeastPathSpeed;
 
+/// Number of directions in which unseen space is tested.
+inline constexpr int kUnseenBearings = 72;
+/// Unseen space begins up to this before a wall that is seen: cells, and the errors of depths along it, m.
+inline constexpr double kUnseenBefore = 0.3;
+/// m of path per m of the way of unseen movers. Those of 2 m/s all around weigh as much as the path of a slow vehicle.
+/// With kPathWeight, the camera looked aside in flight, and the vehicle flew into what it had not seen ahead.
+inline constexpr double kUnseenWeight = 1.0;
+/// A vehicle that waits for so long until it departs looks around for this share of the time, and then ahead again.
+inline constexpr double kLooksAroundShare = 0.5;
+
 /// Growth of the error is capped at that after this much darkness, s: for a plan, so much is ahead.
 inline constexpr double kTextureDark = 2.0;
 /// The σ at which growth of variance is turned into growth of σ, m: that of a flight over some tens of metres.

@@ -14,6 +14,7 @@ struct UnseenMovers {
   double least_width_m = 0.4;
   double clear_radius_m = 2.0;
   double wait_s = 2.0;
+  bool looks = false;
 
   template <typename V>
   void visit(V& v) {
@@ -23,6 +24,7 @@ struct UnseenMovers {
       "at take-off nobody unseen is within this distance of `uav.start`, m");
     v("wait_s", wait_s, Range{0.0, 1e6},
       "a vehicle that has been at rest for longer than this departs without a passively safe plan, s");
+    v("looks", looks, "planned headings look where unseen movers may be, and around while the vehicle waits");
   }
 };
 

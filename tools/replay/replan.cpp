@@ -52,7 +52,7 @@ Replanned replan(const PlanProblem& problem, const Plan& recorded) {
 }
 
 std::optional<PlanHeading> replan_heading(const PlanProblem& problem, const Plan& plan, const PlanHeading& recorded) {
-  auto again = plan_heading_in(problem.world, problem.request, plan, problem.heading,
+  auto again = plan_heading_in(problem.world, problem.request, plan, problem.config, problem.heading,
                                {recorded.control_points[0], recorded.control_points[1]});
   if (again) again->header = recorded.header;
   return again;

@@ -74,8 +74,8 @@ double yaw_at_end(double view_deg, const LookTerm* texture) {
   const HorizonRequest request = request_at(kZero, plan.trajectory);
   HeadingLimits limits;
   limits.view_deg = view_deg;
-  const auto heading =
-      plan_heading(request, plan, {}, limits, heading_start({0.0, 0.0}, plan.trajectory.interval), texture);
+  const auto heading = plan_heading(request, plan, {}, limits, heading_start({0.0, 0.0}, plan.trajectory.interval),
+                                    {.texture = texture});
   return heading->control_points.back();
 }
 
