@@ -25,8 +25,8 @@ std::string tracked_json(const Scene& scene, const TrackAges& ages);
 /// Outlines of the fields of view, from the newest frame of each sensor, two points per line. The heading along the
 /// newest plan: [x, y, z, yaw, …].
 std::string views_json(const Scene& scene);
-/// The newest frame of each sensor with a view, and the time of the vehicle's state, or else of the newest frame. Depths
-/// are in decimetres, row by row; −1: nothing within the range, 0: not measured. Sightings have six numbers of
+/// The newest frame of each sensor with a view, and the time of the vehicle's state, or else of the newest frame.
+/// Depths are in decimetres, row by row; −1: nothing within the range, 0: not measured. Sightings have six numbers of
 /// BoundSight each. "unseen": the cells about the vehicle that no sensor has seen for a second, as [x, y, count, …]
 /// (SeenCells::Run); absent before the first state.
 std::string sight_json(const Scene& scene);
