@@ -18,7 +18,8 @@ class CertifiedShare {
   void add(const HorizonRequest& request);
   /// A message about a request that is not among the last kOpen ones is ignored.
   void add(const PlanUnseen& unseen);
-  /// Returns the share until the vehicle's time `end`, [0, 1]; nullopt before the first PLAN_UNSEEN, or for a time of 0.
+  /// Returns the share until the vehicle's time `end`, [0, 1]; nullopt before the first PLAN_UNSEEN, or for a time of
+  /// 0.
   [[nodiscard]] std::optional<double> until(UTime end) const;
 
  private:
