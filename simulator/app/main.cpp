@@ -20,7 +20,9 @@ int main(int argc, char** argv) {
                          "Also wait for tern-logger, so that its log holds everything that a replay needs");
           },
       .read_section = [](tern::ConfigSection section) { tern::read_simulator_config(section, 0); },
-      .example = "simulator: {sensor: {mode: noisy}, sensors: [{type: camera}], vehicle: quadrotor, estimation: vio}"};
+      .example =
+          "simulator: {sensor: {mode: noisy}, sensors: [{type: camera}], vehicle: quadrotor, estimation: vio, "
+          "vio: {tags: [{position: [1, 0, 1]}], dark: [{from_s: 1}]}}"};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::Scenario& scenario = context.scenario;
     auto config = tern::read_simulator_config(context.section, scenario.seed);

@@ -169,7 +169,7 @@ fly_refuses_bad_options() {
 fly_summarizes_what_it_could_not_fly() {
   local keys
   keys='outcome detail cause why recording scenario seed count settings flight_time_s first_entry_s path_length_m mean_speed_mps top_speed_mps stops'
-  keys+=' min_clearance_m min_map_clearance_m limit_violations contacts_moving contacts_at_rest obstacles obstacles_left_out requests answered_in_time second_answers plans confidence left_out replan_ms exposure messages restarts said beside log command pace version'
+  keys+=' min_clearance_m min_map_clearance_m limit_violations contacts_moving contacts_at_rest obstacles obstacles_left_out requests answered_in_time second_answers plans confidence left_out passively_safe_share replan_ms exposure messages restarts said beside log command pace version'
   [[ $(code "$scripts/fly.sh" --no-install --scenario nowhere --seed 4 --summary "$work/s.json") == 3 ]] || fail "exit code"
   [[ $(grep -oE '^  "[a-z_]+"' "$work/s.json" | tr -d ' "' | tr '\n' ' ') == "$keys " ]] || fail "keys: $(cat "$work/s.json")"
   expect "the seed" has_text '"seed": 4,' "$work/s.json"
