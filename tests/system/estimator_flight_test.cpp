@@ -134,6 +134,24 @@ TEST(EstimatorFlight, BeginsInGustyWind) {
   EXPECT_LT(flight.end_nees, 16.27);  // χ² with 3 degrees of freedom: more has a probability of 0.1 %
 }
 
+TEST(EstimatorFlight, WithATagInViewOfTheGoalArrivesInTruth) {
+  const Judged flight =
+      EstimatedFlightJudge("lake", 1, "simulator.vio.tags=[{position: [79, 0, 1.5], range_m: 12}]").fly();
+  EXPECT_EQ(flight.result.outcome, FlightOutcome::Reached) << flight.result.detail;
+  EXPECT_GT(flight.largest_error, 0.2) << "without the tag it would miss its goal";
+  EXPECT_LT(flight.end_error, 0.1);
+}
+
+/// The error stays within its stated bound, and the vehicle does not stop to wait for light.
+TEST(EstimatorFlight, FliesOnWhileTheCameraIsDark) {
+  EstimatedFlightJudge judge("lake", 1, "simulator.vio.dark=[{from_s: 5, to_s: 10}]");
+  const Judged flight = judge.fly();
+  EXPECT_EQ(flight.result.contacts_moving + flight.result.contacts_at_rest, 0);
+  EXPECT_GT(judge.way(), 70.0) << flight.result.detail;
+  EXPECT_LT(flight.result.flight_time_s, 23.0) << "without darkness it takes 19.8 s; to wait would take 5 s more";
+  EXPECT_EQ(flight.covered, flight.instants);
+}
+
 TEST(EstimatorFlight, OfAPricedWayEndsWithTheErrorThatLabelsForetold) {
   EstimatedFlightJudge judge("lake", 1, "planner.semantics.error_price=20");
   const Judged flight = judge.fly();
