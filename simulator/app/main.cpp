@@ -1,4 +1,5 @@
 #include <memory>
+#include <utility>
 
 #include "runtime/command_line.h"
 #include "runtime/log.h"
@@ -19,7 +20,7 @@ int main(int argc, char** argv) {
             app.add_flag("--recorded", recorded,
                          "Also wait for tern-logger, so that its log holds everything that a replay needs");
           },
-      .read_section = [](tern::ConfigSection section) { tern::read_simulator_config(section, 0); },
+      .read_section = [](tern::ConfigSection section) { tern::read_simulator_config(std::move(section), 0); },
       .example =
           "simulator: {sensor: {mode: noisy}, sensors: [{type: camera}], vehicle: quadrotor, estimation: vio, "
           "vio: {tags: [{position: [1, 0, 1]}], dark: [{from_s: 1}]}}"};
