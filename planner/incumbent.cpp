@@ -16,6 +16,7 @@ void Incumbent::set_course(const Course& course) {
   for (auto* candidate : {&committed_, &best_}) {
     if (*candidate) evaluate(near_, course, **candidate);
   }
+  report(best_);
 }
 
 void Incumbent::replace_committed(std::optional<Candidate> committed, const Course& course) {
@@ -25,13 +26,15 @@ void Incumbent::replace_committed(std::optional<Candidate> committed, const Cour
 }
 
 void Incumbent::report_leaf(const Candidate& leaf) {
-  if (beats_best(leaf)) report(leaf);
+  if (!beats_best(leaf)) return;
+  report(leaf);
+  leaf_stands_ = true;
 }
 
 void Incumbent::offer(Candidate candidate) {
-  if (!beats_best(candidate)) return;
-  best_ = std::move(candidate);
-  report(best_);
+  const bool is_best = beats_best(candidate);
+  if (is_best) best_ = std::move(candidate);
+  if (is_best || leaf_stands_) report(best_);
 }
 
 void Incumbent::offer_stop(std::optional<Candidate> stop, Aim aim) {
@@ -48,6 +51,7 @@ bool Incumbent::beats_best(const Candidate& candidate) const { return !best_ || 
 
 void Incumbent::report(const std::optional<Candidate>& best) {
   PlanObserver* observer = tools_.log.observer();
+  leaf_stands_ = false;
   if (observer == nullptr) return;
   observer->answer(answer_with(best, near_.start.collides ? PlanReason::StartInCollision : PlanReason::OutOfTime));
 }

@@ -23,6 +23,7 @@ namespace tern {
 /// |                     | replace it                                                                           |
 ///
 /// The log's observer is told after each change what the answer would be now, so that the watchdog has one at any time.
+/// A leaf counts until its refined form is offered, which may be no better than the best.
 class Incumbent {
  public:
   /// @param near       at full assurance
@@ -54,6 +55,7 @@ class Incumbent {
   const Surroundings& near_;
   Plan blank_;
   std::optional<Candidate> committed_, best_;
+  bool leaf_stands_ = false;  ///< the observer was last told the answer with a leaf
   PlanTools& tools_;
 };
 

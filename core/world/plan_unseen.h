@@ -18,7 +18,7 @@ struct PlanUnseen {
   MessageName request;                 ///< the request that the plan answers
   UTime start;                         ///< t_s of the request, from which the times count
   Duration committed_clear{kMaxSpan};  ///< [0, kMaxSpan]
-  Duration plan_clear{kMaxSpan};       ///< [0, kMaxSpan]; of NoPlan: as committed_clear
+  Duration plan_clear{kMaxSpan};       ///< [0, kMaxSpan]; of NoPlan and KeepCommitted: as committed_clear
 };
 
 }  // namespace tern

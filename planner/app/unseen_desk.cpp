@@ -21,8 +21,8 @@ void UnseenDesk::answered(const Plan& plan) {
   unseen.request = plan.inputs.request;
   unseen.start = request_->t_s;
   unseen.committed_clear = clear_of(request_->committed);
-  const bool has_trajectory = plan.outcome != PlanOutcome::NoPlan;
-  unseen.plan_clear = has_trajectory ? clear_of(plan.trajectory) : unseen.committed_clear;
+  const bool is_new = plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted;
+  unseen.plan_clear = is_new ? clear_of(plan.trajectory) : unseen.committed_clear;
   bus_.publish(channels::kPlanUnseen, unseen);
 }
 

@@ -228,7 +228,7 @@ inline constexpr double kUnseenBefore = 0.3;
 /// m of path per m of the way of unseen movers. Those of 2 m/s all around weigh as much as the path of a slow vehicle.
 /// With kPathWeight, the camera looked aside in flight, and the vehicle flew into what it had not seen ahead.
 inline constexpr double kUnseenWeight = 1.0;
-/// A vehicle that waits for so long until it departs looks around for this share of the time, and then ahead again.
+/// Share of `wait_s` in which a vehicle that waits looks around. Then it looks ahead again.
 inline constexpr double kLooksAroundShare = 0.5;
 
 /// Growth of the error is capped at that after this much darkness, s: for a plan, so much is ahead.

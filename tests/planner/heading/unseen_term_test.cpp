@@ -23,7 +23,7 @@ constexpr UTime kZero{1'700'000'000'000'000};
 constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 0.1;
 
-/// What is known after one picture from p with this range by azimuth; nothing was clear before.
+/// The knowledge of one picture from p with this range by azimuth. No other space is known to be clear.
 template <class Range>
 UnseenKnowledge seen_from(const Vec2& p, const Range& range) {
   UnseenMovers movers;
@@ -104,7 +104,7 @@ TEST(UnseenTerm, IsTheUrgencyOfTheHiddenPlacesThatALookCanShow) {
   }
 }
 
-/// What a camera sees of a corridor from p, ahead along x.
+/// The knowledge of one picture of a corridor, by a camera at p that looks along x.
 UnseenKnowledge seen_ahead(const Corridor& corridor, const Vec2& p) {
   return seen_from(p, [&](double azimuth) {
     return std::abs(std::remainder(azimuth, 2.0 * kPi)) > 0.74 ? 0.2 : corridor.range(p, azimuth);
