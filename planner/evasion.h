@@ -1,4 +1,4 @@
-// Evasion: a trajectory to a stop that stays clear, sought without regard to the goal. See docs/planner/choice.md.
+// Evasion: a trajectory to a stop that stays clear, sought without regard to the goal. See docs/planner/holds.md.
 #pragma once
 
 #include <optional>

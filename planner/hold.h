@@ -1,5 +1,5 @@
 // The terminal clear time (hold): how long an end must stay clear, and for how long that is tested. See
-// docs/planner/choice.md.
+// docs/planner/holds.md.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 // How far ahead one request looks: the longest plan and hold, and the distance of the local goal. See
-// docs/planner/choice.md.
+// docs/planner/holds.md.
 #pragma once
 
 #include <vector>

@@ -25,7 +25,7 @@ struct PlanAnswer {
 ///  4. The incumbent answers: with the best new candidate, or with the committed trajectory (preference.h).
 ///
 /// Every trajectory in an answer has passed check_plan() or check_separation(). The function is deterministic in its
-/// arguments; the workspace never changes an answer. docs/planner/choice.md states the whole rule.
+/// arguments; the workspace never changes an answer. docs/planner/choice.md states the rule.
 /// @param observer  receives the incumbents and the stages; may be null
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanWorkspace& workspace, PlanObserver* observer = nullptr);

@@ -1,4 +1,4 @@
-// The box of one track, learnt face by face. "Faces and extents" in docs/prediction.md.
+// The box of one track, learnt face by face. docs/prediction/faces.md.
 #pragma once
 
 #include <array>

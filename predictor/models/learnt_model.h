@@ -1,5 +1,5 @@
 // A motion model that is fitted during the flight to the flight's own tracks.
-// Derivation: docs/prediction.md, "The learnt model".
+// Derivation: docs/prediction/learnt_model.md.
 #pragma once
 
 #include <Eigen/Core>

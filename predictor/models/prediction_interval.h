@@ -47,7 +47,7 @@ struct Waypoint {
 /// - The centre is the cubic Hermite curve through the waypoints.
 /// - α of a piece is the largest half-width up to its end, bounded by the reach set. An obstacle that starts within
 ///   half(0) and is no faster than `speed` stays within half(0) + |centre(t) − centre(0)| + speed t of the centre.
-/// - Each lower level follows the same rule, and is at most the level before it. Its share is the largest of the axes'.
+/// - Each lower level follows the same rule, and is at most the level before it. Its shares are per axis.
 /// @param speed m/s per axis, > 0: the track's top speed
 void set_motion(const std::vector<Waypoint>& waypoints, const std::vector<Duration>& ends, UTime start, double speed,
                 Track& track);

@@ -1,4 +1,4 @@
-// The hypothesis that a track rests on one axis of W. "Rest on an axis" in docs/prediction.md.
+// The hypothesis that a track rests on one axis of W. docs/prediction/rest_on_an_axis.md.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Tracker's rest on single axes of W. "Rest on an axis" in docs/prediction.md.
+// Tracker's rest on single axes of W. docs/prediction/rest_on_an_axis.md.
 #include <algorithm>
 #include <array>
 #include <cmath>

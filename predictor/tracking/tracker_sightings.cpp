@@ -1,4 +1,4 @@
-// Tracker's tracks by sightings. "Faces and extents" in docs/prediction.md.
+// Tracker's tracks by sightings. docs/prediction/faces.md.
 #include <algorithm>
 #include <bit>
 #include <cmath>
