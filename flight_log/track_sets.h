@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/world/pose_error_join.h"
 #include "core/world/track.h"
 #include "messages/batching.h"
 
@@ -16,7 +17,10 @@ namespace tern {
 /// set when a newer one begins; a reader of logs must find every set that some process received.)
 class RecordedSets {
  public:
-  /// Adds a batch. @return the complete set if this batch completes it
+  /// Adds the POSE_ERROR of a set that is not complete yet.
+  void add(const PoseError& error) { errors_.add(error); }
+
+  /// Adds a batch. @return the complete set if this batch completes it and its POSE_ERROR is not missing
   std::optional<TrackSet> add(const TrackSet& batch) {
     const std::pair key{batch.header.name.sender_epoch_us, batch.batch.set};
     auto& parts = unfinished_[key];
@@ -33,7 +37,10 @@ class RecordedSets {
     unfinished_.erase(key);
     std::int64_t& newest = newest_[key.first];
     if (newest < key.second) newest = key.second;
-    return join_batches(std::move(batches));
+    TrackSet whole = join_batches(std::move(batches));
+    if (errors_.add_to(whole)) return whole;
+    ++given_up_;
+    return std::nullopt;
   }
 
   /// Returns the number of incomplete sets whose sender has a later complete one.
@@ -53,6 +60,7 @@ class RecordedSets {
   std::map<std::pair<std::int64_t, std::int64_t>, std::map<std::int32_t, TrackSet>> unfinished_;
   std::map<std::int64_t, std::int64_t> newest_;  ///< newest complete set, by sender
   std::int64_t given_up_ = 0;
+  PoseErrorJoin errors_;
 };
 
 }  // namespace tern

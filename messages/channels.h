@@ -18,6 +18,7 @@
 #include "core/world/observation.h"
 #include "core/world/plan_heading.h"
 #include "core/world/plan_unseen.h"
+#include "core/world/pose_error.h"
 #include "core/world/scan.h"
 #include "core/world/search_view.h"
 #include "core/world/sighting.h"
@@ -104,6 +105,10 @@ inline constexpr Channel<TrackSet> kDeclaredMotions{
 /// Per track a box, cubic pieces, and per piece α with its shares at lower levels of confidence.
 inline constexpr Channel<TrackSet> kPredictions{
     "PREDICTIONS", Scope::Vehicle, "20 Hz", kStream, Role::Predictor, kShortSilence};
+/// How wrong the vehicle's pose may be, for the set of PREDICTIONS that follows.
+inline constexpr Channel<PoseError> kPoseError{
+    "POSE_ERROR", Scope::Vehicle, "one per set of PREDICTIONS, only with ODOMETRY", kStream, Role::Predictor,
+    kShortSilence};
 /// For display: per estimated track, about 1 s ahead, the bounds from which α follows.
 inline constexpr Channel<TrackBounds> kTrackBounds{
     "TRACK_BOUNDS", Scope::Vehicle, "2 Hz", kStream, Role::Predictor, kShortSilence};
@@ -177,7 +182,7 @@ inline constexpr std::tuple kAll{kUavState,          kSetpoint,     kVehicleStat
                                  kPlanUnseen,        kSearchView,   kHeartbeat,     kConfiguration,
                                  kObstacleTruth,     kVehicleTruth, kImu,           kFeatureTracks,
                                  kPositionFix,       kOdometry,     kFlightResult,  kMapFile,
-                                 kSpeedLimit,        kFences};
+                                 kSpeedLimit,        kFences,       kPoseError};
 
 }  // namespace channels
 

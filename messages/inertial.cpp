@@ -2,11 +2,13 @@
 
 #include <numbers>
 
+#include "core/world/pose_error.h"
 #include "messages/form.h"
 #include "messages/quaternion_fields.h"
 #include "tern_msgs/feature_tracks_t.hpp"
 #include "tern_msgs/imu_t.hpp"
 #include "tern_msgs/odometry_t.hpp"
+#include "tern_msgs/pose_error_t.hpp"
 #include "tern_msgs/position_fix_t.hpp"
 
 namespace tern {
@@ -130,6 +132,20 @@ struct wire::Form<Odometry> {
   }
 };
 
+template <>
+struct wire::Form<PoseError> {
+  using Message = tern_msgs::pose_error_t;
+  static constexpr Layout<Message> kLayout{};
+
+  static void fields(auto& io, auto& m, auto& error) {
+    io.header("header", m.header, error.header);
+    io.integer("set", m.set, error.set, 1, kMaxCounter);
+    io.position("position", m.position, error.position);
+    covariance_fields<36>(io, "pose_covariance", m.pose_covariance, error.pose_covariance);
+    io.number("apart", m.apart, error.apart, 0.0, kMaxCoordinate);
+  }
+};
+
 template Bytes encode(const ImuBatch& value);
 template tl::expected<ImuBatch, Rejection> decode(std::span<const std::uint8_t> bytes);
 template std::string refused_field<ImuBatch>(std::span<const std::uint8_t> bytes);
@@ -142,5 +158,8 @@ template std::string refused_field<PositionFix>(std::span<const std::uint8_t> by
 template Bytes encode(const Odometry& value);
 template tl::expected<Odometry, Rejection> decode(std::span<const std::uint8_t> bytes);
 template std::string refused_field<Odometry>(std::span<const std::uint8_t> bytes);
+template Bytes encode(const PoseError& value);
+template tl::expected<PoseError, Rejection> decode(std::span<const std::uint8_t> bytes);
+template std::string refused_field<PoseError>(std::span<const std::uint8_t> bytes);
 
 }  // namespace tern

@@ -67,6 +67,20 @@ std::optional<Duration> interval_of(double duration_s, int intervals) {
   return Duration{static_cast<std::int64_t>(std::ceil(dt * 1e6))};
 }
 
+std::optional<Attempt> attempt_of(const Surroundings& near, const Course& course, double duration_s) {
+  const std::optional<Duration> interval = interval_of(duration_s, near.config.intervals);
+  if (!interval) return std::nullopt;
+  const double end_s = interval->seconds() * near.config.intervals;
+  const Attempt attempt{near, course, horizon_problem(near, *interval), near.hold.cap(end_s),
+                        near.hold.required(end_s)};
+  return is_followed(near, *interval, attempt.hold_s) ? std::optional(attempt) : std::nullopt;
+}
+
+Vec3 on_smooth_way(const MotionSample& start, const Vec3& stop, double way_s, double share) {
+  const double reached = share * share * (3.0 - 2.0 * share), carried = share * (1.0 - share) * (1.0 - share) * way_s;
+  return start.p + reached * (stop - start.p) + carried * start.v;
+}
+
 SeparationCache& sweep_horizon(const Attempt& attempt, std::vector<double>& times, SweptHorizon& swept) {
   const HorizonProblem& problem = attempt.problem;
   const double dt = problem.interval_s();

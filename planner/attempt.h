@@ -50,6 +50,13 @@ void append_hold(std::vector<double>& times, double step, double hold_s);
 /// @return nullopt if Δt would exceed kMaxIntervalDuration
 std::optional<Duration> interval_of(double duration_s, int intervals);
 
+/// Returns the attempt of a duration, with the hold that is usual for it. @return nullopt if Δt would be too long, or
+/// obstacles are not followed for as long
+std::optional<Attempt> attempt_of(const Surroundings& near, const Course& course, double duration_s);
+
+/// Returns the position at a share of a smooth way (a cubic in time) from `start` to rest at `stop` within way_s.
+Vec3 on_smooth_way(const MotionSample& start, const Vec3& stop, double way_s, double share);
+
 /// Assigns to `swept` the obstacles of the horizon t_s … t_s + J Δt and of the hold after it.
 /// @param times  scratch memory
 /// @return its empty cache

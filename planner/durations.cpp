@@ -1,7 +1,6 @@
 #include "planner/durations.h"
 
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "planner/attempt.h"
@@ -28,18 +27,13 @@ PlanReason try_durations(const Surroundings& near, const Course& course, const T
     if (trial.duration && k != *trial.duration) continue;
     if (!tools.budget.begin_attempt(trial.phase) || is_long_enough(incumbent, course, near)) break;
     if (incumbent.best() && tools.budget.expired(Stage::LocalGoal)) break;
-    const std::optional<Duration> interval =
-        interval_of(config.duration_scales[idx(k)] * course.local.planned_s, config.intervals);
-    if (!interval) break;
-    const double end_s = interval->seconds() * config.intervals;
-    const Attempt attempt{near, course, horizon_problem(near, *interval), near.hold.cap(end_s),
-                          near.hold.required(end_s)};
-    if (!is_followed(near, *interval, attempt.hold_s)) break;
+    const auto attempt = attempt_of(near, course, config.duration_scales[idx(k)] * course.local.planned_s);
+    if (!attempt) break;
     tools.log.enter(Stage::BroadPhase);
-    SeparationCache& swept = sweep_horizon(attempt, tools.memory.times, tools.memory.horizon);
-    if (auto leaf = search_candidate(attempt, search, swept, tools)) {
+    SeparationCache& swept = sweep_horizon(*attempt, tools.memory.times, tools.memory.horizon);
+    if (auto leaf = search_candidate(*attempt, search, swept, tools)) {
       incumbent.report_leaf(*leaf);
-      incumbent.offer(refined(attempt, std::move(*leaf), swept, tools));
+      incumbent.offer(refined(*attempt, std::move(*leaf), swept, tools));
     }
     tools.log.statistics.count(swept);
   }

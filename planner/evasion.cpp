@@ -65,15 +65,12 @@ const SweptObstacles& sweep_forecast(const Surroundings& near, double duration_s
   return swept;
 }
 
-/// Returns when a smooth way from the start to rest at the stop (a cubic in time) first enters an obstacle's box. It is
-/// sampled once per step of the forecast.
+/// Returns when on_smooth_way() to the stop first enters an obstacle's box, sampled once per step of the forecast.
 double forecast(const SweptObstacles& swept, const MotionSample& start, const Stop& stop) {
   for (int k = 0; k < swept.intervals(); ++k) {
     const double middle = 0.5 * (swept.time(k) + swept.time(k + 1));
     const double s = std::min(1.0, middle / stop.way_s);
-    const double reached = s * s * (3.0 - 2.0 * s);
-    const double carried = s * (1.0 - s) * (1.0 - s) * stop.way_s;
-    const Vec3 p = start.p + reached * (stop.point - start.p) + carried * start.v;
+    const Vec3 p = on_smooth_way(start, stop.point, stop.way_s, s);
     for (const SweptObstacles::Neighbour& neighbour : swept.neighbours(k)) {
       if (neighbour.box.contains(p)) return swept.time(k);
     }

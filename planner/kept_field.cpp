@@ -39,8 +39,18 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const PathObstacles& obstacles, const Vec3& start) {
   KeptField kept = make_kept_field(key, map, obstacles.all(), start);
-  if (obstacles.resting.empty() || kept.field->path_from(start)) return kept;
-  kept = make_kept_field(key, map, obstacles.fixed, start);
+  const bool has_resting = !obstacles.resting.empty(), has_margin = key.map_margin > 0.0;
+  if ((!has_resting && !has_margin) || kept.field->path_from(start)) return kept;
+  const auto opens = [&](double map_margin, const std::vector<Box>& boxes) {
+    GoalFieldKey tried = key;
+    tried.map_margin = map_margin;
+    kept = make_kept_field(tried, map, boxes, start);
+    return kept.field->path_from(start).has_value();
+  };
+  if (!(has_resting && opens(key.map_margin, obstacles.fixed)) && has_margin) {
+    (void)(opens(0.0, obstacles.all()) || opens(0.0, obstacles.fixed));
+  }
+  kept.key = key;
   kept.static_boxes = obstacles.all();
   kept.is_blocked = true;
   return kept;

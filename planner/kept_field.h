@@ -16,7 +16,7 @@ inline constexpr double kFieldStep = 0.1;
 /// A goal field, and the inputs that it holds for.
 struct KeptField {
   std::shared_ptr<const GoalField> field;
-  GoalFieldKey key;               ///< its body may be larger than the wanted one
+  GoalFieldKey key;               ///< the wanted one, or one with a larger body
   std::vector<Box> static_boxes;  ///< they may be larger than the wanted ones
   bool is_blocked = false;        ///< around all boxes no way led from the start: it serves equal keys only
 };
@@ -27,8 +27,8 @@ struct KeptField {
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           std::vector<Box> static_boxes, const Vec3& start);
 
-/// The same for static and resting obstacles. If resting ones close every way from the start, the field is the one
-/// without them: they may move.
+/// The same for static and resting obstacles and with the map's margin. If every way from the start is closed, resting
+/// obstacles are left out, since they may move. If that opens none, the margin is left out, then both.
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const PathObstacles& obstacles, const Vec3& start);
 

@@ -20,8 +20,7 @@ bool seems_clear(const Surroundings& near, const LocalGoal& local, double way_s)
   const double radius = upright_radius(near.request.body);
   for (int k = 0; k <= kNearerSamples; ++k) {
     const double s = static_cast<double>(k) / kNearerSamples;
-    const double reached = s * s * (3.0 - 2.0 * s), carried = s * (1.0 - s) * (1.0 - s) * way_s;
-    const Vec3 p = start.p + reached * (local.goal - start.p) + carried * start.v;
+    const Vec3 p = on_smooth_way(start, local.goal, way_s, s);
     if (field.distance(p.head<2>()) - field.max_speed() * (s * way_s + latency_s) <= radius) return false;
   }
   return true;
@@ -39,16 +38,12 @@ std::optional<Candidate> shortest_to(const Surroundings& near, const Course& the
         tools.budget.expired(Stage::Search)) {
       return std::nullopt;
     }
-    const auto interval = interval_of(config.duration_scales[k] * there.local.planned_s, config.intervals);
-    if (!interval) return std::nullopt;
-    const double end_s = interval->seconds() * config.intervals;
-    const Attempt attempt{near, there, horizon_problem(near, *interval), near.hold.cap(end_s),
-                          near.hold.required(end_s)};
-    if (!is_followed(near, *interval, attempt.hold_s)) return std::nullopt;
+    const auto attempt = attempt_of(near, there, config.duration_scales[k] * there.local.planned_s);
+    if (!attempt) return std::nullopt;
     tools.log.enter(Stage::BroadPhase);
-    SeparationCache& swept = sweep_horizon(attempt, tools.memory.times, tools.memory.horizon);
-    auto leaf = search_candidate(attempt, search, swept, tools);
-    if (leaf) leaf = refined(attempt, std::move(*leaf), swept, tools);
+    SeparationCache& swept = sweep_horizon(*attempt, tools.memory.times, tools.memory.horizon);
+    auto leaf = search_candidate(*attempt, search, swept, tools);
+    if (leaf) leaf = refined(*attempt, std::move(*leaf), swept, tools);
     tools.log.statistics.count(swept);
     if (leaf) return leaf;
   }

@@ -127,7 +127,7 @@ double way_speed(const MapProducts& map, const Limits& limits) {
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const std::vector<Box>& static_boxes, const Vec3& start) {
   std::vector<Box> boxes = static_boxes;
-  boxes.insert(boxes.end(), map->occupied.boxes().begin(), map->occupied.boxes().end());
+  for (const Box& box : map->occupied.boxes()) boxes.push_back(grown(box, Vec3::Constant(key.map_margin)));
   for (Box& box : boxes) {
     const Box solid = places_at(box, key.body);
     box = grown(solid, Vec3::Constant(kPathSpacing));

@@ -82,11 +82,12 @@ struct GoalFieldKey {
   std::uint64_t statics = 0;               ///< digest of the static boxes
   Box body{Vec3(0, 0, 0), Vec3(0, 0, 0)};  ///< the body about its position, by which obstacles are grown, m
   Box flight_box;
-  double speed = 0.0;  ///< of the way, with an error price, m/s; else 0
+  double speed = 0.0;       ///< of the way, with an error price, m/s; else 0
+  double map_margin = 0.0;  ///< PathObstacles::map_margin, m
   friend bool operator==(const GoalFieldKey& a, const GoalFieldKey& b) {
     return a.goal == b.goal && a.map_version == b.map_version && a.statics == b.statics && a.speed == b.speed &&
-           a.body.min() == b.body.min() && a.body.max() == b.body.max() && a.flight_box.min() == b.flight_box.min() &&
-           a.flight_box.max() == b.flight_box.max();
+           a.map_margin == b.map_margin && a.body.min() == b.body.min() && a.body.max() == b.body.max() &&
+           a.flight_box.min() == b.flight_box.min() && a.flight_box.max() == b.flight_box.max();
   }
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "core/geometry/box.h"
 #include "core/geometry/distance.h"
@@ -17,17 +16,22 @@ namespace {
 /// Halvings of the scale: an α of one metre is resolved to a micrometre.
 constexpr int kHalvings = 20;
 
-/// The distance of the body at p from the track's box at time t, as a function of the scale of α.
+/// The distance of the body at p from an obstacle's box at one time, as a function of the scale of α or margin.
 class StartDistance {
  public:
   /// @param body  its vertices at p, W. @param box  scratch memory
-  StartDistance(const Track& track, const AlphaShare& count, const Points& body, double radius, UTime t, Points& box)
-      : body_(body),
-        box_(box),
-        radius_(radius),
-        centre_(track.motion.sample(std::clamp(t, track.motion.start, track.motion.end())).p),
-        half_(track.half_extents),
-        alpha_(count.of(track, track.motion.locate(t).index)) {}
+  StartDistance(const PlanningObstacle& o, const Points& body, double radius, UTime t, Points& box)
+      : body_(body), box_(box), radius_(radius) {
+    if (o.track == nullptr) {
+      centre_ = o.box.center();
+      half_ = 0.5 * o.map_box(0.0).sizes();
+      alpha_ = Vec3::Constant(o.margin);
+    } else {
+      centre_ = o.track->motion.sample(std::clamp(t, o.track->motion.start, o.track->motion.end())).p;
+      half_ = o.track->half_extents;
+      alpha_ = o.alpha.of(*o.track, o.track->motion.locate(t).index);
+    }
+  }
 
   [[nodiscard]] bool clear(double scale, double slack) {
     box_ = box_corners(box_around(centre_, half_ + scale * alpha_));
@@ -61,12 +65,11 @@ bool is_surely_clear(const PlanningObstacle& o, const Vec3& reach, const Vec3& p
   return !grown(o.boxes->whole, reach + Vec3::Constant(kWithRounding)).contains(p);
 }
 
-/// Returns the box of an obstacle that stays where it is, with its α; nullopt for a mover.
-std::optional<Box> static_box(const PlanningObstacle& o) {
-  if (o.moves()) return std::nullopt;
-  if (o.track == nullptr) return o.box;
+/// Returns the box of an obstacle with a scale of its α or margin. @pre it does not move
+Box static_box(const PlanningObstacle& o, double scale) {
+  if (o.track == nullptr) return o.map_box(scale * o.alpha.scale);
   return box_around(o.track->motion.pieces.front().coefficients.col(3),
-                    o.track->half_extents + o.alpha.of(*o.track, 0));
+                    o.track->half_extents + scale * o.alpha.of(*o.track, 0));
 }
 
 /// Cuts `side` at p if the body at p touches the box.
@@ -97,8 +100,10 @@ Box leave_touched(std::vector<PlanningObstacle>& obstacles, const Body& body, co
   const Box extent = body_box(body);
   const Box bounds(p + extent.min(), p + extent.max());
   std::erase_if(obstacles, [&](const PlanningObstacle& o) {
-    const std::optional<Box> box = static_box(o);
-    return box && cut_at_touched_face(*box, points, body.radius, bounds, p, side);
+    const auto is_touched = [&](double scale) {
+      return cut_at_touched_face(static_box(o, scale), points, body.radius, bounds, p, side);
+    };
+    return !o.moves() && (is_touched(1.0) || is_touched(0.0));
   });
   return side;
 }
@@ -110,13 +115,13 @@ StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body&
   const Vec3 reach = body.half_extents();
   for (PlanningObstacle& o : obstacles) {
     if (!grown(o.box, reach).contains(p) || is_surely_clear(o, reach, p, t)) continue;
-    if (o.track == nullptr) {
+    if (o.track == nullptr && o.margin == 0.0) {
       box = box_corners(o.box);
       const bool clear = distance(box, body_at_p) > body.radius + kTouchingTolerance;
       result.collides = result.collides || !clear;
       continue;
     }
-    StartDistance start(*o.track, o.alpha, body_at_p, body.radius, t, box);
+    StartDistance start(o, body_at_p, body.radius, t, box);
     if (start.clear(1.0, kTouchingTolerance)) continue;
     result.collides = result.collides || !start.clear(0.0, kTouchingTolerance);
     o.alpha.scale *= start.largest_scale();

@@ -45,17 +45,21 @@ bool StaticTracks::add(const TrackSet& set) {
   if (set.header.name.sender_epoch_us != epoch_us_) {
     epoch_us_ = set.header.name.sender_epoch_us;
     first_set_ = set.batch.set;
-    changed = !by_id_.empty() || !obstacles_.resting.empty();
+    changed = !by_id_.empty() || !obstacles_.resting.empty() || obstacles_.map_margin > 0.0;
     by_id_.clear();
     resting_.clear();
+    obstacles_.map_margin = 0.0;
   }
   changed = add_static(set) || changed;
   changed = add_resting(set) || changed;
+  changed = add_map_margin(set) || changed;
   if (!changed) return false;
-  obstacles_ = {};
+  obstacles_.fixed.clear();
   for (const auto& [id, known] : by_id_) obstacles_.fixed.push_back(known.box);
   obstacles_.resting = wide_boxes();
-  const std::uint64_t before = std::exchange(digest_, digest_of(obstacles_.all()));
+  std::vector<Box> digested = obstacles_.all();
+  if (obstacles_.map_margin > 0.0) digested.push_back(box_around(Vec3::Zero(), Vec3::Constant(obstacles_.map_margin)));
+  const std::uint64_t before = std::exchange(digest_, digest_of(digested));
   return digest_ != before;
 }
 
@@ -130,6 +134,14 @@ bool StaticTracks::add_resting(const TrackSet& set) {
     return is_omitted;
   });
   return changed;
+}
+
+bool StaticTracks::add_map_margin(const TrackSet& set) {
+  const double margin = set.pose_error ? set.pose_error->margin(set.pose_error->position) : 0.0;
+  const double kept = obstacles_.map_margin;
+  if (margin <= kept && kept - margin < 3.0 * kMarginStep && (margin > 0.0 || kept == 0.0)) return false;
+  obstacles_.map_margin = kMarginStep * std::ceil(margin / kMarginStep);
+  return true;
 }
 
 bool StaticTracks::take_box(const Track& track, Resting& resting) {

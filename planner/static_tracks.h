@@ -23,6 +23,8 @@ struct PathObstacles {
   /// Of tracks that rest and are wide, alone or with those that they touch. They may move, so they count only if they
   /// leave a way.
   std::vector<Box> resting;
+  /// The margin of the map's boxes, m: PoseError::margin() at the vehicle. It counts only if it leaves a way.
+  double map_margin = 0.0;
 
   [[nodiscard]] std::vector<Box> all() const {
     std::vector<Box> boxes = fixed;
@@ -55,6 +57,9 @@ struct PathObstacles {
 /// α grows while a track is out of sight, though nothing more is known of it. So a path that leads out of a pocket
 /// would close behind the vehicle; that is why the least α counts here. The check of a plan takes the whole α.
 ///
+/// The margin of the map is that of the newest set, rounded up to kMarginStep. It stays while the new one is smaller by
+/// less than three steps.
+///
 /// A false track that appears once thus blocks a path only until the next set. The state depends on the sets alone.
 class StaticTracks {
  public:
@@ -65,6 +70,7 @@ class StaticTracks {
   static constexpr double kRestingWay = 0.1, kMovedAway = 0.5, kMuchSmaller = 1.0;  ///< m
   /// Boxes of resting tracks are rounded outwards to multiples of this, m. So they change seldom, and paths with them.
   static constexpr double kBoxStep = 0.25;
+  static constexpr double kMarginStep = 0.1;  ///< m
 
   StaticTracks();
 
@@ -73,8 +79,9 @@ class StaticTracks {
 
   [[nodiscard]] const PathObstacles& obstacles() const { return obstacles_; }  ///< each in order of track id
   [[nodiscard]] const std::vector<Box>& boxes() const { return obstacles_.fixed; }
-  [[nodiscard]] std::uint64_t digest() const { return digest_; }     ///< digest_of() the fixed, then the resting boxes
-  [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }  ///< sender epoch of the predictor; 0: no set yet
+  /// Returns digest_of() the fixed, then the resting boxes, and a box of the map's margin if there is one.
+  [[nodiscard]] std::uint64_t digest() const { return digest_; }
+  [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }    ///< sender epoch of the predictor; 0: no set yet
   [[nodiscard]] std::int64_t first_set() const { return first_set_; }  ///< number of the predictor's first set; 0: none
 
  private:
@@ -91,6 +98,7 @@ class StaticTracks {
   };
   bool add_static(const TrackSet& set);
   bool add_resting(const TrackSet& set);
+  bool add_map_margin(const TrackSet& set);
   static bool take_box(const Track& track, Resting& resting);
   [[nodiscard]] std::vector<Box> wide_boxes() const;  ///< O(n²) in the resting tracks; called when a box changes
 

@@ -7,17 +7,22 @@
 namespace tern {
 namespace {
 
-/// Collects the tracks and map boxes in the region.
+/// Collects the tracks and map boxes in the region. For a vehicle that estimates its pose, a box of the map is grown by
+/// the largest margin of the part of it that may be in the region.
 void find_obstacles(const Box& region, const PlanningWorld& world, PlanWorkspace& memory) {
   memory.obstacles.clear();
   world.predictions->index.query(region, memory.found);
   for (const std::int32_t k : memory.found) {
     memory.obstacles.push_back(world.predictions->obstacles[idx(k)]);
   }
-  world.map->occupied.query(region, memory.found);
+  const std::optional<PoseError>& error = world.predictions->set.pose_error;
+  const Box reached = error ? grown(region, Vec3::Constant(error->margin(region))) : region;
+  world.map->occupied.query(reached, memory.found);
   for (const std::int32_t k : memory.found) {
     const Box& box = world.map->occupied.boxes()[idx(k)];
-    memory.obstacles.push_back({-1 - static_cast<std::int64_t>(k), nullptr, box, {}});
+    const double margin = error ? error->margin(box.intersection(reached)) : 0.0;
+    memory.obstacles.push_back(
+        {-1 - static_cast<std::int64_t>(k), nullptr, grown(box, Vec3::Constant(margin)), {}, nullptr, margin});
   }
 }
 

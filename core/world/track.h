@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/types.h"
 #include "core/splines/piecewise_cubic.h"
 #include "core/wire/header.h"
+#include "core/world/pose_error.h"
 
 namespace tern {
 
@@ -80,7 +82,9 @@ struct TrackSet {
   UTime made_at;              ///< time of the newest input; the set is stale 0.3 s later
   double confidence = 1.0;    ///< (0, 1]: probability that a track stays within its α over all pieces; 1 if declared
   std::int32_t left_out = 0;  ///< tracks that did not fit into the batches, the farthest ones
-  std::vector<Track> tracks;  ///< a complete set is in ascending order of ids
+  std::vector<Track> tracks;  ///< a complete set is in ascending order of ids.
+  /// The POSE_ERROR of a complete set. Nullopt if the vehicle's pose is taken as exact.
+  std::optional<PoseError> pose_error;
 };
 
 }  // namespace tern

@@ -21,6 +21,7 @@ WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& u
       limits_(uav.limits),
       position_(uav.start) {
   if (in_background) worker_ = std::make_unique<Worker>();
+  bus.subscribe(channels::kPoseError, [this](const PoseError& error) { pose_errors_.add(error); });
   bus.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
   bus.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
@@ -72,6 +73,7 @@ void WorldIntake::on_predictions(const TrackSet& batch) {
   auto set = batches_.add(batch);
   if (!set) return;
   TrackSet whole = join_batches(std::move(*set));
+  if (!pose_errors_.add_to(whole)) return bus_.refuse(channels::kPredictions, Rejection::Inconsistent);
   statics_.add(whole);
   auto products = std::make_shared<const PredictionProducts>(std::move(whole));
   const std::lock_guard lock(mutex_);
@@ -126,6 +128,7 @@ void WorldIntake::publish(std::int64_t number, std::shared_ptr<const GoalProduct
 
 void WorldIntake::note_blocked(std::string blocked) {
   const std::lock_guard lock(mutex_);
+  if (!blocked.empty() && blocked != blocked_) log::warn("{}", blocked);
   blocked_ = std::move(blocked);
 }
 
@@ -142,8 +145,13 @@ void WorldIntake::prepare() {
   }
   const PlanningWorld world = snapshot();
   if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
-  const GoalFieldKey key{newest_goal_->position,        world.map->version, statics_.digest(), body_, flight_box_,
-                         way_speed(*world.map, limits_)};
+  const GoalFieldKey key{newest_goal_->position,
+                         world.map->version,
+                         statics_.digest(),
+                         body_,
+                         flight_box_,
+                         way_speed(*world.map, limits_),
+                         statics_.obstacles().map_margin};
   if (world.goal && world.goal->field && still_serves(*world.goal, key)) {
     // A repeated goal is published by its new name: plans then name a message that a late logger has received.
     if (world.goal->goal.header.name == newest_goal_->header.name) return;
@@ -160,7 +168,6 @@ void WorldIntake::prepare() {
     if (!field->path_from(at)) {
       blocked = fmt::format("goal {} is blocked: {}", goal.id,
                             blocked_goal_text(*field, made.key, made.static_boxes, at, places_));
-      log::warn("{}", blocked);
     }
     note_blocked(std::move(blocked));
     if (const auto error = is_new ? foretell_error(*field, at, key.speed) : std::nullopt) {

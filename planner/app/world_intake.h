@@ -9,6 +9,7 @@
 
 #include "core/scenario/scenario.h"
 #include "core/world/map_progress.h"
+#include "core/world/pose_error_join.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/worker.h"
 #include "planner/kept_field.h"
@@ -22,11 +23,12 @@ namespace tern {
 /// repeats another goal this long afterwards, that other goal is the one in force.
 inline constexpr Duration kGoalTaken{500'000};
 
-/// Subscribes to PREDICTIONS, SEMANTIC_MAP and GOAL, and prepares the world of plans.
+/// Subscribes to POSE_ERROR, PREDICTIONS, SEMANTIC_MAP and GOAL, and prepares the world of plans.
 ///
 /// | message                    | effect                                                                              |
 /// |----------------------------|-------------------------------------------------------------------------------------|
 /// | a complete prediction set  | used at once; its static tracks are remembered                                      |
+/// | one without its POSE_ERROR | counted as refused: inconsistent (PoseErrorJoin)                                    |
 /// | a complete map             | its fields are made in the background and then used; seconds for a large map        |
 /// | a goal to go to            | its distance field is made in the background and then used, again for a new map,    |
 /// |                            | new static tracks, body or flight box (with an error price: kept_field.h)           |
@@ -72,6 +74,7 @@ class WorldIntake {
   PlannerConfig config_;
   const std::vector<NamedPlace> places_;
   BatchCollector<TrackSet> batches_;
+  PoseErrorJoin pose_errors_;
   MapAssembler assembler_;
   MapProgress map_progress_;
   StaticTracks statics_;

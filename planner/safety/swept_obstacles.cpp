@@ -59,7 +59,7 @@ UTimeSpan microseconds(UTime origin, double from, double to) {
 }
 
 Box sweep_box(const PlanningObstacle& obstacle, const Vec3& body_half, UTime origin, double from, double to) {
-  if (obstacle.track == nullptr) return grown(obstacle.box, body_half);
+  if (obstacle.track == nullptr) return grown(obstacle.map_box(obstacle.alpha.scale), body_half);
   const UTimeSpan t = microseconds(origin, from, to);
   const Box box = bounds_at(*obstacle.track, t.from, t.to, obstacle.alpha, {0, obstacle.track->motion.start});
   return grown(box, body_half + Vec3::Constant(kBetaMax));
@@ -169,7 +169,10 @@ Box SweptObstacles::part_box(const Neighbour& neighbour, const TimePart& part) c
 }
 
 CentredBox SweptObstacles::box_at_rest(const PlanningObstacle& o) const {
-  if (o.track == nullptr) return {o.box.center(), 0.5 * o.box.sizes() + box_half_};
+  if (o.track == nullptr) {
+    const Box box = o.map_box(o.alpha.scale);
+    return {box.center(), 0.5 * box.sizes() + box_half_};
+  }
   const Vec3 p = o.track->motion.pieces.front().coefficients.col(3);
   return {p, o.track->half_extents + o.alpha.of(*o.track, 0) + box_half_};
 }

@@ -26,11 +26,17 @@ struct MotionBoxes {
 struct PlanningObstacle {
   std::int64_t id = 0;           ///< track id; −1 − k for the k-th box of the map
   const Track* track = nullptr;  ///< null for a box of the map
-  Box box;           ///< the box of the map, not inflated; for a track a box around it over all times of interest, W
-  AlphaShare alpha;  ///< the share of the track's α that applies: reduced by the assurance, and if the start is relaxed
+  /// A box of the map, grown by its margin. For a track a box around it over all times of interest, W.
+  Box box;
+  /// The share of the track's α that applies: reduced by the assurance, and if the start is relaxed. For a box of the
+  /// map its scale is that of the margin.
+  AlphaShare alpha;
   const MotionBoxes* boxes = nullptr;  ///< boxes of the track's motion; null if they are not known
+  double margin = 0.0;                 ///< by which the box of the map is grown on each side: PoseError::margin(), m
 
   [[nodiscard]] bool moves() const { return track != nullptr && track->kind != TrackKind::Static; }
+  /// Returns the box of the map with this scale of its margin. @pre track is null
+  [[nodiscard]] Box map_box(double scale) const { return grown(box, Vec3::Constant((scale - 1.0) * margin)); }
   /// Reduced assurances leave the α of such an obstacle as it is.
   [[nodiscard]] bool is_declared_or_static() const { return track == nullptr || track->kind != TrackKind::Estimated; }
   /// Returns when its last piece ends. @pre track is not null

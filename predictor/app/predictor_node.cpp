@@ -165,15 +165,17 @@ void PredictorNode::publish(UTime now) {
   std::vector<TrackBound> bounds;
   const bool is_bounds_due = now >= next_bounds_;
   std::vector<Track> declared = trimmed(declared_, now, horizon);
-  world_error_.widen(declared, now);
-  const bool has_margin = world_error_.is_known() && !declared.empty();
-  if (has_margin && world_error_.is_stale(now))
-    watch_.trouble("odometry", "no valid ODOMETRY: the margins of declared motions grow", now);
+  if (world_error_.is_known()) {
+    set.pose_error = world_error_.pose_error(now);
+    widen(declared, *set.pose_error, now);
+  }
+  if (world_error_.is_stale(now))
+    watch_.trouble("odometry", "no valid ODOMETRY: margins of things known in W grow", now);
   set.tracks = merged(std::move(declared), tracker_.predict(now, is_bounds_due ? &bounds : nullptr), now);
   const bool estimated = std::any_of(set.tracks.begin(), set.tracks.end(),
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
-  if (has_margin) set.confidence = std::min(set.confidence, WorldError::kConfidence);
+  if (set.pose_error) set.confidence = std::min(set.confidence, PoseError::kConfidence);
   if (vehicle_) sort_by_reach(set.tracks, *vehicle_, now, config_.tracker.prediction.horizon);
   const std::int32_t left_out_before = declared_left_out_ + tracker_.left_out();
   set.left_out = left_out_before;
@@ -188,7 +190,12 @@ void PredictorNode::publish(UTime now) {
     watch_.trouble("left out", text, now);
   }
   if (is_bounds_due) publish_bounds(set, bounds, now);
-  if (remove_unsendable(batches, now)) bus_.publish_paced(channels::kPredictions, std::move(batches));
+  if (!remove_unsendable(batches, now)) return;
+  if (set.pose_error) {
+    set.pose_error->set = set.batch.set;
+    bus_.publish(channels::kPoseError, *set.pose_error);
+  }
+  bus_.publish_paced(channels::kPredictions, std::move(batches));
 }
 
 template <class T>

@@ -1,6 +1,5 @@
 #include "predictor/models/world_error.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -21,31 +20,23 @@ void WorldError::add_vehicle(const Vec3& p, UTime at) {
   apart_ = (p - position_ - (at - odometry_->at).seconds() * velocity_).norm();
 }
 
-double WorldError::margin(const Vec3& x) const {
-  if (!odometry_) return 0.0;
-  const Eigen::Matrix<double, 6, 6> pose =
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(odometry_->pose_covariance.data());
-  const Vec3 r = x - position_;
-  Eigen::Matrix<double, 3, 6> J;
-  J << 1.0, 0.0, 0.0, 0.0, r.z(), -r.y(),  //
-      0.0, 1.0, 0.0, -r.z(), 0.0, r.x(),   //
-      0.0, 0.0, 1.0, r.y(), -r.x(), 0.0;
-  const Eigen::Matrix3d at_x = J * pose * J.transpose();
-  const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(at_x, Eigen::EigenvaluesOnly).eigenvalues()[2];
-  const double width = kQuantile * std::sqrt(std::max(largest, 0.0)) + apart_;
-  return std::ceil(width / kStep) * kStep;
-}
-
 double WorldError::drift(UTime at) const {
   if (!is_stale(at)) return 0.0;
   const double drift = kDriftSpeed * (at - odometry_->at - kFresh).seconds();
-  return std::min(kMostDrift, std::ceil(drift / kStep) * kStep);
+  return std::min(kMostDrift, std::ceil(drift / PoseError::kStep) * PoseError::kStep);
 }
 
-void WorldError::widen(std::vector<Track>& tracks, UTime at) const {
-  if (!odometry_) return;
+PoseError WorldError::pose_error(UTime at) const {
+  PoseError error;
+  error.position = position_;
+  error.pose_covariance = odometry_->pose_covariance;
+  error.apart = apart_ + drift(at);
+  return error;
+}
+
+void widen(std::vector<Track>& tracks, const PoseError& error, UTime at) {
   for (Track& track : tracks) {
-    const double by = margin(track.motion.sample(at).p) + drift(at);
+    const double by = error.margin(track.motion.sample(at).p);
     for (Vec3& alpha : track.alpha) alpha += Vec3::Constant(by);
   }
 }

@@ -122,6 +122,7 @@ struct Words {
   void add(const PlanUnseen& u) {
     (*this)(u.header, u.request_id, u.request, u.start, u.committed_clear, u.plan_clear);
   }
+  void add(const PoseError& e) { (*this)(e.header, e.set, e.position, e.pose_covariance, e.apart); }
   void add(const CloudPoint& p) { (*this)(p.position, p.class_number); }
   void add(const CloudScan& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.has_classes, s.points);
@@ -192,6 +193,7 @@ template std::vector<std::uint64_t> words_of(const HorizonRequest&);
 template std::vector<std::uint64_t> words_of(const Plan&);
 template std::vector<std::uint64_t> words_of(const PlanTiming&);
 template std::vector<std::uint64_t> words_of(const PlanUnseen&);
+template std::vector<std::uint64_t> words_of(const PoseError&);
 template std::vector<std::uint64_t> words_of(const SearchView&);
 template std::vector<std::uint64_t> words_of(const TrackBounds&);
 template std::vector<std::uint64_t> words_of(const Heartbeat&);
@@ -234,6 +236,10 @@ std::vector<std::int32_t> array_sizes(const PlanTiming&) {
 }
 template <>
 std::vector<std::int32_t> array_sizes(const PlanUnseen&) {
+  return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const PoseError&) {
   return {};
 }
 template <>

@@ -41,6 +41,13 @@ TEST(Rejection, OfPlanUnseen) {
   EXPECT_EQ(after<PlanUnseen>([](auto& u) { u.plan_clear.us = kMaxSpan.us + 1; }), "Time");
 }
 
+TEST(Rejection, OfPoseError) {
+  EXPECT_EQ(after<PoseError>([](auto& e) { e.set = 0; }), "Number");
+  EXPECT_EQ(after<PoseError>([](auto& e) { e.position.y() = kNaN; }), "Number");
+  EXPECT_EQ(after<PoseError>([](auto& e) { e.pose_covariance[35] = kInfinity; }), "Number");
+  EXPECT_EQ(after<PoseError>([](auto& e) { e.apart = -0.1; }), "Number");
+}
+
 TEST(Rejection, OfMapFile) {
   EXPECT_EQ(after<MapFile>([](auto& f) { f.at.us = kFarFuture; }), "Time");
   EXPECT_EQ(after<MapFile>([](auto& f) { f.format = static_cast<MapFormat>(1); }), "Enumeration");

@@ -92,6 +92,30 @@ TEST(ClearStart, ABoxOfTheMapHasNoAlphaToGive) {
   EXPECT_EQ(obstacles[0].alpha.scale, 1.0);
 }
 
+/// A box of the map at x = 0.25 m, of half-extents 0.1 m, grown by a margin.
+std::vector<PlanningObstacle> map_box_with(double margin) {
+  return {{-1, nullptr, box_around(Vec3(0.25, 0, 0), Vec3::Constant(0.1 + margin)), {}, nullptr, margin}};
+}
+
+TEST(ClearStart, ABoxOfTheMapGivesOfItsMargin) {
+  for (const double margin : {0.03, 0.1, 0.7}) {
+    auto obstacles = map_box_with(margin);
+    const StartClearance result = clear_start(obstacles, Body{}, Vec3::Zero(), kNow);  // a radius of 0.1 m
+    EXPECT_FALSE(result.collides);
+    EXPECT_EQ(result.relaxed, margin > 0.05);
+    const Box applied = obstacles[0].map_box(obstacles[0].alpha.scale);
+    EXPECT_NEAR(applied.min().x(), std::max(0.15 - margin, 0.1), result.relaxed ? kSlack : 1e-12) << margin;
+  }
+}
+
+TEST(LeaveTouched, AFloorIsTouchedWithoutItsMargin) {
+  std::vector<PlanningObstacle> obstacles{
+      {-1, nullptr, Box(Vec3(-3.2, -3.2, -1.2), Vec3(3.2, 3.2, 0.1)), {}, nullptr, 0.2}};
+  const Box side = leave_touched(obstacles, Body{}, Vec3::Zero());
+  EXPECT_TRUE(obstacles.empty());
+  EXPECT_EQ(side.min().z(), 0.0);
+}
+
 /// The floor under a sphere of 0.1 m at the origin; `gap` between them.
 std::vector<PlanningObstacle> floor_below(double gap) {
   return {{-1, nullptr, Box(Vec3(-3, -3, -1), Vec3(3, 3, -0.1 - gap)), {}}};

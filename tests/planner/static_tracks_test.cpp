@@ -43,6 +43,26 @@ TEST(StaticTracks, AFalseTrackThatCameOnceOrTwiceIsForgotten) {
   EXPECT_EQ(statics.boxes().size(), 1U);
 }
 
+TEST(StaticTracks, TheMapsMarginFollowsThePoseInSteps) {
+  StaticTracks statics;
+  auto add = [&, number = 0](double margin) mutable {
+    TrackSet set = set_of(5, ++number, {});
+    if (margin > 0.0) set.pose_error.emplace().apart = margin;
+    return statics.add(set);
+  };
+  const std::uint64_t without = statics.digest();
+  EXPECT_FALSE(add(0.0));
+  EXPECT_TRUE(add(0.32));
+  EXPECT_NEAR(statics.obstacles().map_margin, 0.4, 1e-12);
+  EXPECT_NE(statics.digest(), without);
+  for (const double margin : {0.4, 0.35, 0.2}) EXPECT_FALSE(add(margin)) << margin;
+  EXPECT_TRUE(add(0.5));
+  EXPECT_TRUE(add(0.15));
+  EXPECT_NEAR(statics.obstacles().map_margin, 0.2, 1e-12);
+  EXPECT_TRUE(add(0.0));
+  EXPECT_EQ(statics.digest(), without);
+}
+
 /// A set at `at_s` with one estimated track of this width along y, which moves at this speed along x.
 TrackSet estimated(double at_s, double width, double x = 8.0, double speed = 0.0) {
   Track track = box_at(4, x);

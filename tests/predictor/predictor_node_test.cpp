@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/base/random.h"
+#include "core/world/pose_error_join.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
 #include "runtime/lcm_network.h"
@@ -147,6 +148,32 @@ TEST_F(PredictorNodeTest, PassesDeclaredMotionsOn) {
   EXPECT_EQ(got.alpha.front(), track.alpha.front());
   const UTime later = runner_.now() + Duration{1'000'000};
   EXPECT_EQ(got.motion.sample(later).p, track.motion.sample(later).p);
+}
+
+TEST_F(PredictorNodeTest, SendsThePoseErrorBeforeEachSetOnceThereIsAnEstimate) {
+  start();
+  std::vector<std::int64_t> sets_at_error;
+  PoseErrorJoin join;
+  runner_.observer().subscribe(channels::kPoseError, [&](const PoseError& error) {
+    sets_at_error.push_back(static_cast<std::int64_t>(sets_.size()));
+    EXPECT_EQ(error.set, static_cast<std::int64_t>(sets_.size()) + 1) << "it comes before its set";
+    EXPECT_NEAR(error.margin(Vec3(1, 0, 1)), 0.35, 1e-9);
+    join.add(error);
+  });
+  declare({mover(1, Vec3(3, 0, 1), Vec3::Zero(), runner_.now())});
+  run_for(0.2);
+  EXPECT_TRUE(sets_at_error.empty());
+  Odometry odometry;
+  odometry.at = runner_.now();
+  odometry.state = EstimatorState::Tracking;
+  odometry.p_OB = Vec3(1, 0, 1);
+  odometry.pose_covariance[0] = 0.01;
+  runner_.observer().publish(channels::kOdometry, odometry);
+  run_for(0.2);
+  ASSERT_FALSE(sets_at_error.empty());
+  ASSERT_TRUE(join.add_to(sets_.back()));
+  EXPECT_TRUE(sets_.back().pose_error);
+  EXPECT_EQ(sets_.back().confidence, PoseError::kConfidence);
 }
 
 TEST_F(PredictorNodeTest, GoesOnWithTheOldTimeWhenInputsStop) {

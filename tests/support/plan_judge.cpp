@@ -44,7 +44,12 @@ std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const
                                             const Assurance& assurance) {
   std::vector<PlanningObstacle> obstacles = world.predictions->obstacles;
   std::int64_t id = -1;
-  for (const Box& box : world.map->occupied.boxes()) obstacles.push_back({id--, nullptr, box, {}});
+  const std::optional<PoseError>& error = world.predictions->set.pose_error;
+  for (const Box& box : world.map->occupied.boxes()) {
+    const Vec3 nearest = request.start.p.cwiseMax(box.min()).cwiseMin(box.max());
+    const double margin = error ? error->margin(nearest) : 0.0;
+    obstacles.push_back({id--, nullptr, grown(box, Vec3::Constant(margin)), {}, nullptr, margin});
+  }
   apply_assurance(assurance, request.t_s, obstacles);
   (void)clear_start(obstacles, request.body, request.start.p, request.t_s);
   return obstacles;

@@ -12,7 +12,8 @@
 namespace tern::support {
 
 /// Returns the obstacles from which an answer must be separated: all tracks and map boxes. They have the share of α
-/// that the plan applies, reduced as clear_start() reduces it.
+/// that the plan applies, reduced as clear_start() reduces it. Boxes have the margin of their point nearest to the
+/// start.
 std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world,
                                             const Assurance& assurance = {});
 

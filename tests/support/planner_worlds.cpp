@@ -184,7 +184,7 @@ double least_gap(const TimedSpline& trajectory, const Body& body, const std::vec
   for (UTime t = from;; t = std::min(t + step, to)) {
     const Vec3 p = spline.sample((t - trajectory.start).seconds()).p;
     for (const PlanningObstacle& o : obstacles) {
-      const Box box = o.track != nullptr ? promised_box(*o.track, t, o.alpha) : o.box;
+      const Box box = o.track != nullptr ? promised_box(*o.track, t, o.alpha) : o.map_box(o.alpha.scale);
       const double at_least = box.exteriorDistance(box_around(p, half));
       if (at_least < least) least = std::min(least, gap(body, p, box));
     }

@@ -3,6 +3,7 @@
 #include "core/world/map_file.h"
 #include "core/world/plan_heading.h"
 #include "core/world/plan_unseen.h"
+#include "core/world/pose_error.h"
 #include "core/world/sighting.h"
 #include "tests/support/generator_parts.h"
 
@@ -80,6 +81,17 @@ template <>
 PlanUnseen random_message(Rng& rng, Fill) {
   const auto clear = [&rng] { return Duration{integer(rng, 0, kMaxSpan.us)}; };
   return {header(rng), integer(rng, 1, kMaxCounter), name(rng), time(rng), clear(), clear()};
+}
+
+template <>
+PoseError random_message(Rng& rng, Fill) {
+  PoseError error;
+  error.header = header(rng);
+  error.set = integer(rng, 1, kMaxCounter);
+  error.position = position(rng);
+  for (double& x : error.pose_covariance) x = number(rng, -1e12, 1e12);
+  error.apart = number(rng, 0.0, kMaxCoordinate);
+  return error;
 }
 
 template <>

@@ -20,6 +20,8 @@ namespace {
 constexpr double kPlaneTolerance = 1e-6;
 /// Extrema are enclosed to this, m.
 constexpr double kExtremum = 1e-8;
+/// Room that a relaxed start keeps, and the tolerance of its reckoning, m.
+constexpr double kStartRoom = 2e-3;
 /// Room that lcmtypes/certificate_plane_t.lcm promises for a body without a radius, m.
 constexpr double kPublishedMargin = 1e-9;
 constexpr int kMaxParts = 4;
@@ -43,6 +45,7 @@ class CaseCheck {
         unknown_is_obstacle_(unknown_is_obstacle),
         check_(check) {
     for (const CertificatePlane& c : plan.plan.certificate) planes_[{c.interval, c.part, c.parts}].push_back(&c);
+    find_start_room();
   }
 
   void run() {
@@ -149,25 +152,53 @@ class CaseCheck {
     return found == planes_.end() ? kNone : found->second;
   }
 
-  /// Checks the map's occupied voxels near a part's box, one by one.
-  void voxels(const Part& whole) {
+  /// Returns the region grown by the margin of things known in W.
+  [[nodiscard]] Box with_margin(const Box& region) const {
+    const auto& error = case_.predictions.pose_error;
+    return error ? grown(region, Vec3::Constant(error->margin(region))) : region;
+  }
+
+  /// Calls visit(voxel) for each obstacle voxel of the map that a region meets.
+  template <class Visit>
+  void each_voxel(const Box& region, const Visit& visit) const {
     const VoxelGrid& grid = case_.map->grid;
-    const Box box = vehicle_box(whole);
-    const Eigen::Vector3i low = grid.cell_of(box.min()).cwiseMax(0);
-    const Eigen::Vector3i high = grid.cell_of(box.max()).cwiseMin(grid.size - Eigen::Vector3i::Ones());
+    const Eigen::Vector3i low = grid.cell_of(region.min()).cwiseMax(0);
+    const Eigen::Vector3i high = grid.cell_of(region.max()).cwiseMin(grid.size - Eigen::Vector3i::Ones());
     for (int z = low.z(); z <= high.z(); ++z) {
       for (int y = low.y(); y <= high.y(); ++y) {
-        for (int x = low.x(); x <= high.x(); ++x) voxel({x, y, z}, whole);
+        for (int x = low.x(); x <= high.x(); ++x) {
+          const VoxelLabel label = case_.map->labels[idx(grid.index({x, y, z}))];
+          const bool is_unknown = unknown_is_obstacle_ && label == VoxelLabel::Unknown;
+          if (label == VoxelLabel::Occupied || is_unknown) visit(grid.box({x, y, z}));
+        }
       }
     }
   }
 
-  void voxel(const Eigen::Vector3i& cell, const Part& whole) {
-    const VoxelLabel label = case_.map->labels[idx(case_.map->grid.index(cell))];
-    if (label != VoxelLabel::Occupied && !(unknown_is_obstacle_ && label == VoxelLabel::Unknown)) return;
+  /// Finds the margin that voxels may have at most, since the start lies inside larger ones. A box around the body
+  /// stands for it.
+  void find_start_room() {
+    if (case_.map == nullptr || !case_.predictions.pose_error) return;
+    const Vec3& p = case_.request.start.p;
+    const Box body = grown(swept_box(body_, Box(p, p)), tube_);
+    each_voxel(with_margin(body), [&](const Box& voxel) {
+      const double gap = (voxel.min() - body.max()).cwiseMax(body.min() - voxel.max()).maxCoeff();
+      start_room_ = std::min(start_room_, std::max(0.0, gap - kStartRoom));
+    });
+  }
+
+  /// Checks the map's obstacle voxels near a part's box, one by one.
+  void voxels(const Part& whole) {
+    const Box near = with_margin(vehicle_box(whole));
+    each_voxel(near, [&](const Box& voxel) { check_voxel(voxel, near, whole); });
+  }
+
+  void check_voxel(Box box, const Box& near, const Part& whole) {
     ++check_.checked;
     ++voxels_checked_;
-    const Box box = case_.map->grid.box(cell);
+    const auto& error = case_.predictions.pose_error;
+    const double margin = error ? std::min(start_room_, error->margin(box.intersection(near))) : 0.0;
+    box = grown(box, Vec3::Constant(margin));
     if (voxel_separated(box, whole)) return;
     fail(fmt::format("nothing separates the map's voxel at ({:.2f}, {:.2f}, {:.2f}) m in {}", box.center().x(),
                      box.center().y(), box.center().z(), words(whole)),
@@ -194,6 +225,7 @@ class CaseCheck {
   Check& check_;
   std::map<Part, std::vector<const CertificatePlane*>> planes_;
   std::map<Part, Box> vehicle_boxes_;
+  double start_room_ = INFINITY;
   std::int64_t voxels_checked_ = 0;
 };
 

@@ -70,6 +70,7 @@ class Reading {
     collect(channels::kObstacleTruth, take_truth);
     collect(channels::kFlightResult, take_result);
     log_.on(channels::kDeclaredMotions, [this](const TrackSet& batch, std::int64_t) { declared(batch); });
+    log_.on(channels::kPoseError, [this](const PoseError& error, std::int64_t) { predictions_.add(error); });
     log_.on(channels::kPredictions, [this](const TrackSet& batch, std::int64_t) { predicted(batch); });
     log_.on(channels::kSemanticMap, [this](const MapChunk& chunk, std::int64_t) { take(chunk); });
     log_.on(channels::kGoal, [this](const Goal& goal, std::int64_t) {

@@ -96,6 +96,7 @@ class ExtractWriter {
     for (const auto& [name, goal] : extract_.inputs.goals) put(channels::kGoal, goal);
     write_requests();
     for (const TrackSet& set : extract_.predictions) {
+      if (set.pose_error) put(channels::kPoseError, *set.pose_error);
       for (const TrackSet& batch : split_batches(set)) put(channels::kPredictions, batch);
       write_answers({set.header.name.sender_epoch_us, set.batch.set});
     }

@@ -107,6 +107,7 @@ Result<LogContents> read_prediction_sets(const std::string& path, const std::str
                                          const std::function<void(TrackSet)>& use) {
   RecordedSets sets;
   FlightLog log(suffix);
+  log.on(channels::kPoseError, [&](const PoseError& error, std::int64_t) { sets.add(error); });
   log.on(channels::kPredictions, [&](const TrackSet& batch, std::int64_t) {
     if (auto whole = sets.add(batch)) use(std::move(*whole));
   });

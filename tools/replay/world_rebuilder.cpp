@@ -166,7 +166,8 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
                    from.statics,
                    body_box(configuration.uav.body),
                    configuration.uav.flight_box,
-                   way_speed(**map, configuration.uav.limits)};
+                   way_speed(**map, configuration.uav.limits),
+                   statics->second->map_margin};
   Vec3 start = configuration.uav.start;
   if (from.vehicle != MessageName{}) {
     const auto request = inputs_.requests.find(from.vehicle);
