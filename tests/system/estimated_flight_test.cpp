@@ -153,14 +153,11 @@ TEST_F(EstimatedFlight, WhoseOffsetIsCorrectedNeitherStepsNorLeavesItsTube) {
   EXPECT_NEAR((state_.motion.p - truth_.motion.p).y(), 0.4, 0.03);
 }
 
-/// Declared pillars leave a gap of 1.2 m on the straight way. An estimate with a standard deviation of 0.25 m must not
-/// use it: its margin is 0.85 m on each side.
-class DeclaredGap : public EstimatedFlight {
+/// Two pillars leave a gap on the straight way. An estimate with a standard deviation of 0.25 m must not use it: its
+/// margin is 0.85 m on each side.
+class GapFlight : public EstimatedFlight {
  protected:
-  DeclaredGap()
-      : EstimatedFlight(
-            {"world.obstacles=[{centre: [20, 1.1, 2], half_extents: [0.2, 0.5, 2]}, {centre: [20, -1.1, 2], "
-             "half_extents: [0.2, 0.5, 2]}]"}) {}
+  using EstimatedFlight::EstimatedFlight;
   double y_at_gap() {
     double y = 1e9;
     system_.runner().run(system_.runner().now() + Duration::from_seconds(40.0), [&] {
@@ -171,12 +168,38 @@ class DeclaredGap : public EstimatedFlight {
   }
 };
 
+/// The owner of the pillars declares them.
+class DeclaredGap : public GapFlight {
+ protected:
+  DeclaredGap()
+      : GapFlight({"world.obstacles=[{centre: [20, 1.1, 2], half_extents: [0.2, 0.5, 2]}, {centre: [20, -1.1, 2], "
+                   "half_extents: [0.2, 0.5, 2]}]"}) {}
+};
+
 TEST_F(DeclaredGap, IsUsedByAVehicleThatKnowsWhereItIs) { EXPECT_LT(std::abs(y_at_gap()), 0.6); }
 
 TEST_F(DeclaredGap, IsFlownAroundByOneThatDoesNot) {
   errors_.sigma = 0.25;
   const double y = y_at_gap();
   EXPECT_GT(std::abs(y), 1.6 + 0.85);
+  EXPECT_EQ(system_.simulator().result()->outcome, FlightOutcome::Reached);
+}
+
+/// The pillars are voxels of the map.
+class MappedGap : public GapFlight {
+ protected:
+  MappedGap()
+      : GapFlight({"semantics.enabled=true", "semantics.classes={wall: occupied}",
+                   "semantics.regions=[{name: left, class: wall, box: {min: [19.75, 0.75, 0], max: [20.25, 1.75, 4]}}, "
+                   "{name: right, class: wall, box: {min: [19.75, -1.75, 0], max: [20.25, -0.75, 4]}}]"}) {}
+};
+
+TEST_F(MappedGap, IsUsedByAVehicleThatKnowsWhereItIs) { EXPECT_LT(std::abs(y_at_gap()), 0.75); }
+
+TEST_F(MappedGap, IsFlownAroundByOneThatDoesNot) {
+  errors_.sigma = 0.25;
+  const double y = y_at_gap();
+  EXPECT_GT(std::abs(y), 1.75 + 0.85);
   EXPECT_EQ(system_.simulator().result()->outcome, FlightOutcome::Reached);
 }
 
