@@ -181,7 +181,10 @@ class CaseCheck {
     if (case_.map == nullptr || !case_.predictions.pose_error) return;
     const Vec3& p = case_.request.start.p;
     const Box body = grown(swept_box(body_, Box(p, p)), tube_);
-    each_voxel(with_margin(body), [&](const Box& voxel) {
+    Box flown = body;
+    for (int k = 0; k < static_cast<int>(case_.curves.size()); ++k) flown.extend(vehicle_box({k, 0, 1}));
+    const double largest = case_.predictions.pose_error->margin(with_margin(flown));
+    each_voxel(grown(body, Vec3::Constant(largest)), [&](const Box& voxel) {
       const double gap = (voxel.min() - body.max()).cwiseMax(body.min() - voxel.max()).maxCoeff();
       start_room_ = std::min(start_room_, std::max(0.0, gap - kStartRoom));
     });
@@ -200,8 +203,9 @@ class CaseCheck {
     const double margin = error ? std::min(start_room_, error->margin(box.intersection(near))) : 0.0;
     box = grown(box, Vec3::Constant(margin));
     if (voxel_separated(box, whole)) return;
-    fail(fmt::format("nothing separates the map's voxel at ({:.2f}, {:.2f}, {:.2f}) m in {}", box.center().x(),
-                     box.center().y(), box.center().z(), words(whole)),
+    const std::string with = margin > 0.0 ? fmt::format(" with its margin of {:.3f} m", margin) : "";
+    fail(fmt::format("nothing separates the map's voxel at ({:.2f}, {:.2f}, {:.2f}) m{} in {}", box.center().x(),
+                     box.center().y(), box.center().z(), with, words(whole)),
          kNoObstacle);
   }
 
