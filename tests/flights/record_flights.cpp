@@ -38,6 +38,10 @@ void record_all(const std::filesystem::path& folder) {
                 log("gust"));
   record_flight(scenario("closing_in"), {"seed=1"}, log("closing_in"));
   record_flight(scenario("perception_only"), {"simulator.sensor.range_m=2"}, log("short_sighted"));
+  record_flight(scenario("u_trap_map"),
+                {"simulator.estimation=vio", "simulator.vehicle=quadrotor", "simulator.quadrotor.class=racer",
+                 "uav.dynamics={thrust_min: 2, thrust_max: 39.2, tilt_max: 70, body_rate_max: 900}"},
+                log("estimated"));
   record_virtually(restarts(), log("restarts"));
 }
 
