@@ -40,6 +40,7 @@ void add_judge_contacts(CommandLine& app, Command& chosen);
 void add_merge(CommandLine& app, Command& chosen);
 void add_schema(CommandLine& app, Command& chosen);
 void add_summarize(CommandLine& app, Command& chosen);
+void add_ways(CommandLine& app, Command& chosen);
 /// Adds compare, page and columns.
 void add_compare(CommandLine& app, Command& chosen);
 /// Adds paper-6.1 and paper-6.2.

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   tern::add_merge(app, chosen);
   tern::add_schema(app, chosen);
   tern::add_summarize(app, chosen);
+  tern::add_ways(app, chosen);
   tern::add_compare(app, chosen);
   tern::add_paper(app, chosen);
   try {
