@@ -9,9 +9,13 @@
 
 namespace tern {
 
-/// What is drawn: water on the straight way; a dark hall with textured walls; a façade beside a plain ground; a river
-/// with bridges; patches of texture and water.
-enum class WaysFamily : std::uint8_t { Lake, Hall, Facade, River, Patches };
+enum class WaysFamily : std::uint8_t {
+  Lake,     ///< water on the straight way
+  Hall,     ///< a dark hall with textured walls
+  Facade,   ///< a façade beside plain ground
+  River,    ///< a river across the way, with a bridge
+  Patches,  ///< patches of texture and water
+};
 inline constexpr int kWaysFamilies = 5;
 const char* to_string(WaysFamily family);
 
