@@ -20,6 +20,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DYNAMICS = "uav.dynamics={thrust_min: 2, thrust_max: 39.2, tilt_max: 70, body_rate_max: 900}"
+ABOVE_GROUND = "uav.flight_box={min: [-100, -100, 0.5], max: [200, 100, 6]}"  # below it the camera sees nothing
 RACER = ["simulator.vehicle=quadrotor", "simulator.quadrotor.class=racer", DYNAMICS]
 OFF = ["semantics.lambda_attractive=0", "semantics.lambda_repulsive=0"]
 PRICE, PLANNED = "planner.semantics.error_price=20", "planner.heading=planned"
@@ -49,10 +50,10 @@ VARIANTS = {
     ("hall", "price, heading"): ("hall", [PRICE, PLANNED]),
     ("hall", "λ, tag"): ("hall", tag_at(79, -1, 1.5)),
     ("hall", "λ, dark"): ("hall", dark),
-    ("paper_attract", "off"): ("paper_attract", RACER + OFF),
-    ("paper_attract", "λ"): ("paper_attract", RACER),
-    ("paper_repel", "off"): ("paper_repel", RACER + OFF),
-    ("paper_repel", "λ"): ("paper_repel", RACER),
+    ("paper_attract", "off"): ("paper_attract", RACER + [ABOVE_GROUND] + OFF),
+    ("paper_attract", "λ"): ("paper_attract", RACER + [ABOVE_GROUND]),
+    ("paper_repel", "off"): ("paper_repel", RACER + [ABOVE_GROUND] + OFF),
+    ("paper_repel", "λ"): ("paper_repel", RACER + [ABOVE_GROUND]),
     ("paper_corridor", "known motion"): ("paper_corridor", RACER),
     ("sando_forest", "known motion"): ("sando_forest", RACER),
 }

@@ -101,6 +101,13 @@ World flyable_world_of(const Scenario& scenario, const SimulatorConfig& config) 
   World world = world_of(scenario);
   const std::string why = config.declare ? undeclarable(world) : "";
   if (!why.empty()) throw ConfigError(scenario.file + ": world: " + why);
+  const double ground_z = config.vio ? config.vio->landmarks.ground_z_m : 0.0;
+  if (config.vio && scenario.uav.flight_box.min().z() < ground_z) {
+    world.remarks.push_back(
+        fmt::format("uav.flight_box reaches below the ground at {} m (simulator.vio.landmarks.ground_z_m): from there "
+                    "the camera sees nothing, and the estimate drifts",
+                    ground_z));
+  }
   return world;
 }
 

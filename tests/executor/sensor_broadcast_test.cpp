@@ -131,5 +131,17 @@ TEST(SensorBroadcast, RefusesAGroundAboveTheStart) {
   EXPECT_NO_THROW(flyable_world_of(scenario, config_of("sensors: [{type: camera}], ground_z: 1.5, ground: none")));
 }
 
+TEST(FlyableWorld, WithAnEstimateAFlightBoxBelowTheGroundIsRemarkedOn) {
+  Scenario scenario;
+  SimulatorConfig config;
+  const auto remarks = [&] { return flyable_world_of(scenario, config).remarks; };
+  EXPECT_TRUE(remarks().empty()) << "nobody estimates";
+  config.vio.emplace();
+  ASSERT_EQ(remarks().size(), 1U);
+  EXPECT_NE(remarks()[0].find("below the ground"), std::string::npos);
+  scenario.uav.flight_box.min().z() = 0.0;
+  EXPECT_TRUE(remarks().empty());
+}
+
 }  // namespace
 }  // namespace tern
