@@ -11,6 +11,9 @@ constexpr double kRounding = 1e-9;
 
 Box rounded_up(const Box& box) { return rounded_out(box, kFieldStep, kRounding); }
 
+/// Whether body and static boxes change several times a second, or the field takes long.
+bool is_rounded(const GoalFieldKey& key) { return key.speed > 0.0 || key.map_margin > 0.0; }
+
 bool is_a_little_larger(const Box& kept, const Box& wanted) {
   return grown(kept, Vec3::Constant(kRounding)).contains(wanted) &&
          grown(wanted, Vec3::Constant(3.0 * kFieldStep)).contains(kept);
@@ -24,7 +27,7 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
     auto field = std::make_shared<const GoalField>(make_goal_field(with_body, map, boxes, start));
     return KeptField{std::move(field), with_body, std::move(boxes), false};
   };
-  if (!(key.speed > 0.0)) return made(key, std::move(static_boxes));
+  if (!is_rounded(key)) return made(key, std::move(static_boxes));
   GoalFieldKey rounded = key;
   rounded.body = rounded_up(key.body);
   std::vector<Box> boxes = static_boxes;
@@ -58,7 +61,7 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
 
 bool serves(const KeptField& kept, const GoalFieldKey& wanted, const std::vector<Box>& static_boxes) {
   if (kept.key == wanted) return true;
-  if (kept.is_blocked || !(wanted.speed > 0.0)) return false;
+  if (kept.is_blocked || !is_rounded(wanted)) return false;
   GoalFieldKey key = wanted;
   key.body = kept.key.body;
   key.statics = kept.key.statics;

@@ -1,4 +1,4 @@
-// A goal field with an error price that is kept while the vehicle's tube and the bounds of obstacles at rest change.
+// A goal field that is kept while the vehicle's tube and the bounds of obstacles at rest change.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace tern {
 
-/// Body and obstacles are rounded up to this for a field with an error price, m. Such a field takes time. The measured
-/// tube and, on an estimate, the bounds of obstacles change several times a second.
+/// Body and obstacles are rounded up to this for a field with an error price, and on an estimate, m. Such a field takes
+/// time. The measured tube and, on an estimate, the bounds of obstacles change several times a second.
 inline constexpr double kFieldStep = 0.1;
 
 /// A goal field, and the inputs that it holds for.
@@ -21,9 +21,10 @@ struct KeptField {
   bool is_blocked = false;        ///< around all boxes no way led from the start: it serves equal keys only
 };
 
-/// Returns make_goal_field(key, …). With an error price (speed > 0) the sides of body and static boxes are first
-/// rounded up to kFieldStep. The field then serves while they change. If no way leads from the start for these, the
-/// field is the one for body and boxes as they are. A function of its arguments: a replay makes the same field of them.
+/// Returns make_goal_field(key, …). With an error price (speed > 0), and on an estimate (map_margin > 0), the sides of
+/// body and static boxes are first rounded up to kFieldStep. The field then serves while they change. If no way leads
+/// from the start for these, the field is the one for body and boxes as they are. A function of its arguments: a replay
+/// makes the same field of them.
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           std::vector<Box> static_boxes, const Vec3& start);
 
@@ -32,7 +33,7 @@ KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const M
 KeptField make_kept_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const PathObstacles& obstacles, const Vec3& start);
 
-/// Whether a field also serves other inputs. It serves equal keys. With an error price it also serves a body and static
+/// Whether a field also serves other inputs. It serves equal keys. If it is rounded, it also serves a body and static
 /// boxes that its own contain, each smaller by at most 3 kFieldStep per side. A blocked field does not: a smaller body
 /// may find a way.
 /// @param static_boxes  those whose digest is wanted.statics

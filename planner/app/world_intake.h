@@ -31,7 +31,7 @@ inline constexpr Duration kGoalTaken{500'000};
 /// | one without its POSE_ERROR | counted as refused: inconsistent (PoseErrorJoin)                                    |
 /// | a complete map             | its fields are made in the background and then used; seconds for a large map        |
 /// | a goal to go to            | its distance field is made in the background and then used, again for a new map,    |
-/// |                            | new static tracks, body or flight box (with an error price: kept_field.h)           |
+/// |                            | new static tracks, body or flight box (kept_field.h)                                |
 /// | a goal to hold or stop     | used at once: it needs no field                                                     |
 /// | a goal with a smaller id   | ignored, unless the vehicle sends it kGoalTaken after the last one                  |
 /// | other contents, same id    | the same, and counted as refused: inconsistent                                      |
