@@ -39,7 +39,7 @@ parse() {
         shift
         ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
-      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url | --pace | --autopilot | --mission | --view-wait)
+      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url | --pace | --autopilot | --odometry | --mission | --view-wait)
         [[ $# -gt 0 ]] || die "$option needs a value (--help)"
         value=$1
         shift
@@ -54,7 +54,7 @@ parse() {
       --lcm-url) url=$value ;;
       --autopilot) autopilot=$value ;;
       --mission) mission=$value ;;
-      --set | --pace | --record | --summary) flight+=("$option=$value") ;;
+      --set | --pace | --record | --summary | --odometry) flight+=("$option=$value") ;;
       --view-wait)
         [[ $value =~ ^[0-9]+$ ]] || die "--view-wait $value: must be whole seconds"
         flight+=("--view-wait=$value")

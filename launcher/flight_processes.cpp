@@ -89,7 +89,10 @@ std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, co
     std::vector<std::string>& words = add(kMission, {"--record", record}).child.command;
     if (is_uploaded(options)) words.insert(words.end(), {"--connect", options.mission});
   }
-  if (!options.autopilot.empty()) add(kMavlink, {"--connect", options.autopilot});
+  if (!options.autopilot.empty()) {
+    std::vector<std::string>& words = add(kMavlink, {"--connect", options.autopilot}).child.command;
+    if (!options.odometry.empty()) words.insert(words.end(), {"--odometry", options.odometry});
+  }
   if (options.autopilot_sim) {
     const std::string place = options.autopilot.substr(options.autopilot.find("//"));
     add(kAutopilotSim, {"--connect", "udpout:" + place}).restarted = false;

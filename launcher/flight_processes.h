@@ -30,6 +30,7 @@ struct LaunchOptions {
   std::string view_url, page;      ///< URL of that socket; folder of the built page
   bool allow_goals = false;        ///< pages may send goals
   std::string autopilot;           ///< address for tern-mavlink; empty: the simulator flies its own vehicle
+  std::string odometry;            ///< with `autopilot`: address of another estimator; empty: none
   std::vector<std::string> autopilot_limits;  ///< overrides for a flight with an autopilot
   bool autopilot_sim = false;                 ///< the autopilot is tern-autopilot-sim; needs udp://
   bool detects = false;                       ///< tern-detector runs as well (section detector)

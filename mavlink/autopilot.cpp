@@ -17,7 +17,8 @@ constexpr std::uint8_t kOnGround = 1, kTakingOff = 3;
 constexpr std::uint8_t kWarning = 4;
 /// MAV_STATE that an autopilot reports in a failsafe while armed.
 constexpr std::uint8_t kCritical = 5, kEmergency = 6;
-constexpr Duration kOdometryRules{500'000};
+/// ODOMETRY silences LOCAL_POSITION_NED for this long: less than kStateAge, so that its end is no gap of the position.
+constexpr Duration kOdometryRules{400'000};
 /// Largest number of queued acknowledgements and texts.
 constexpr std::size_t kMaxQueued = 64;
 constexpr std::size_t kMaxParameters = 4096, kMaxText = 400;
@@ -158,6 +159,7 @@ void Autopilot::receive_position(const Frame& frame, UTime received) {
     if (reset_counter_ && *reset_counter_ != m->reset_counter) ++resets_;
     reset_counter_ = m->reset_counter;
     const auto at = ours(m->time_usec, received);
+    odometry_.emplace(*m, at);
     const Eigen::Quaterniond q = quaternion_of(m->q);
     if (!at || m->frame_id != kFrameLocalNed || !all_finite(m->p, m->v) || !(std::abs(q.norm() - 1.0) < 0.1)) return;
     Vec3 v(m->v[0], m->v[1], m->v[2]);

@@ -83,6 +83,8 @@ class Autopilot {
   [[nodiscard]] int resets() const { return resets_; }
   /// The newest state in its local frame, as ENU, with `at` in our clock. a and j are zero: they are not reported.
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
+  /// The newest ODOMETRY with its time in our clock, once. nullopt time: its clock is unknown, or it is over 1 s old.
+  std::optional<std::pair<Odometry, std::optional<UTime>>> take_odometry() { return std::exchange(odometry_, {}); }
   /// Receive time of the first HEARTBEAT with the present arming.
   [[nodiscard]] UTime arming_changed() const { return arming_changed_; }
   /// Height of home in the local frame, m, from GLOBAL_POSITION_INT since the arming last changed, since arming may
@@ -130,6 +132,7 @@ class Autopilot {
   int resets_ = 0;
   std::optional<UavState> state_, truth_;
   std::optional<UTime> last_odometry_;
+  std::optional<std::pair<Odometry, std::optional<UTime>>> odometry_;
   std::optional<HilStateQuaternion> last_truth_;
   std::optional<double> home_height_;
   double yaw_ = 0.0;

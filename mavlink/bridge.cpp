@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <utility>
 
 namespace tern::mavlink {
@@ -17,6 +18,12 @@ constexpr std::size_t kMaxReason = 230;  // VEHICLE_STATUS has 256 bytes for it
 
 /// Old senders leave the target at 0.
 bool is_mine(const CommandAck& ack) { return ack.target_component == 0 || ack.target_component == kOwnComponent; }
+
+OdometryAssumptions assumptions(const BridgeConfig& config) {
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  return {config.odometry_sigma_m, kRadians * config.odometry_sigma_deg, config.odometry_correlated,
+          config.odometry_max_sigma_m};
+}
 
 }  // namespace
 
@@ -41,7 +48,9 @@ Bridge::Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now)
       next_timesync_(now),
       next_target_(now),
       next_streams_(now),
-      vision_(config.vision_apart_m) {
+      vision_(config.vision_apart_m),
+      report_(assumptions(config), origin_),
+      companion_out_(static_cast<std::uint8_t>(config.system), now) {
   at_.since = now;
   if (config.external_vision) autopilot_.take_own_origin();
 }
@@ -58,6 +67,7 @@ void Bridge::receive(const Frame& frame, UTime received) {
   }
   if (autopilot_.truth()) send_vision(*autopilot_.truth());
   if (autopilot_.state()) vision_.estimated(*autopilot_.state(), autopilot_.resets());
+  take_estimate();
   if (const auto question = from_frame<Timesync>(frame); question && question->tc1 == 0) {
     out_.send(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
   }
@@ -142,6 +152,11 @@ VehicleStatus Bridge::status(UTime now) const {
   status.estimator = autopilot_.estimator();
   status.position_sigma = config_.sigma_share * autopilot_.sigma();
   status.resets = autopilot_.resets();
+  if (config_.odometry != OdometrySource::None) {
+    status.position_sigma = report_.drift_sigma();
+    status.resets = frame_.jumps();
+    if (!odometry_fault(now).empty()) status.estimator = EstimatorHealth::Lost;
+  }
   return status;
 }
 
@@ -152,7 +167,10 @@ void Bridge::step(UTime now) {
   now_ = now;
   if (next_heartbeat_.take(now, kHeartbeatPeriod)) send_heartbeats();
   const Duration timesync_period = autopilot_.clock().ready() ? kTimesyncPeriod : kFirstTimesyncPeriod;
-  if (autopilot_.address() && next_timesync_.take(now, timesync_period)) out_.send(Timesync{.ts1 = now.us * 1000});
+  if (autopilot_.address() && next_timesync_.take(now, timesync_period)) {
+    out_.send(Timesync{.ts1 = now.us * 1000});
+    if (config_.odometry == OdometrySource::Companion) companion_out_.send(Timesync{.ts1 = now.us * 1000});
+  }
   if (at_.stage == Stage::Landed || ends_) parameters_.set_back(autopilot_, now, out_);
   if (at_.stage == Stage::Following && !parameters_.all_asked()) request_parameters(now);
   request_streams(now);

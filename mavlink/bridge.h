@@ -1,6 +1,7 @@
 // The bridge between SETPOINT and an autopilot: take-off, following, standing back, landing.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@
 #include "mavlink/bridge_config.h"
 #include "mavlink/faults.h"
 #include "mavlink/fed_offset.h"
+#include "mavlink/flown_frame.h"
 #include "mavlink/mode_arbiter.h"
+#include "mavlink/odometry_report.h"
 #include "mavlink/outbox.h"
 #include "mavlink/parameter_exchange.h"
 #include "mavlink/tilt_ramp.h"
@@ -107,6 +110,10 @@ const char* to_string(Stage stage);
 /// sent while the vehicle may be in a failsafe: after a silence of COM_OF_LOSS_T, HEARTBEAT must report the mode first.
 /// During a reported failsafe, setpoints are sent only after order_flight().
 ///
+/// **Errors of the estimate** (OdometryReport). With `odometry`, estimate() is Tern's ODOMETRY. States and setpoints
+/// are those of a FlownFrame, which follows a reset of the autopilot's estimator slowly. Without a usable ODOMETRY the
+/// vehicle reports *not following*. It flies SETPOINT on, which ends at rest, and lands after kOdometryPatience there.
+///
 /// **Take-off of an ArduPilot.** The bridge sends NAV_TAKEOFF, to uav.start's height above the vehicle's home. A
 /// setpoint would end that take-off, so setpoints start when the vehicle is up. If a take-off is already under way, the
 /// bridge waits for its end.
@@ -115,6 +122,8 @@ class Bridge {
   /// The last bound is the flight box (of the vehicle's centre), wider by this, m. tern-executor rejoins a vehicle up
   /// to RejoinGuard::kMaxExcursion (2 m) outside, and needs as much to brake.
   static constexpr double kLastBound = 4.0;
+  /// A vehicle that rests for this long without an ODOMETRY to fly by lands.
+  static constexpr Duration kOdometryPatience{5'000'000};
 
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
 
@@ -124,6 +133,9 @@ class Bridge {
   void receive(const Plan& plan) { command_.receive(plan); }
   /// Takes the vehicle's state (W) from a motion-capture system. Used only with external_vision.
   void receive_vision(const UavState& seen);
+  /// Takes a frame of a companion's estimator: ODOMETRY, TIMESYNC.
+  /// @param of_unix  our time of a time since the Unix epoch, µs
+  void receive_companion(const Frame& frame, UTime received, const std::function<UTime(std::int64_t)>& of_unix);
   /// A new GOAL of mode Go orders the vehicle to fly. With `start: pilot` only after this bridge has followed.
   void order_flight();
   /// A flight is under way that this bridge did not start, since it was restarted: it arms only when ordered.
@@ -141,8 +153,12 @@ class Bridge {
 
   /// Returns the frames to send, in order, since the last call.
   std::vector<Frame> take_frames() { return out_.take_frames(); }
+  /// Returns the frames to send to the companion's estimator since the last call.
+  std::vector<Frame> take_companion_frames() { return companion_out_.take_frames(); }
   /// The estimated state in W, or nullopt before the first one. @pre the caller publishes each `at` once
-  [[nodiscard]] std::optional<UavState> state() const { return in_world(autopilot_.state()); }
+  [[nodiscard]] std::optional<UavState> state() const;
+  /// The newest estimate with its covariances, with `odometry`. @pre as state()
+  [[nodiscard]] const std::optional<tern::Odometry>& estimate() const { return report_.newest(); }
   /// The true state in W (TruthAnchor), where the autopilot reports it (simulation); nullopt before the first estimate.
   [[nodiscard]] std::optional<UavState> truth() const { return in_world(truth_.apply(autopilot_.truth())); }
   [[nodiscard]] VehicleStatus status(UTime now) const;
@@ -169,6 +185,7 @@ class Bridge {
     std::optional<UTime> rests_since;  ///< Climbing: at uav.start
     bool landing_seen = false;         ///< Landing: the autopilot has reported the landing mode
     bool battery_missed = false;       ///< Following: it was logged that no charge is reported
+    std::optional<UTime> lost_since;   ///< Following: at rest without an ODOMETRY to fly by
   };
 
   // Stages (bridge_stages.cpp).
@@ -183,6 +200,7 @@ class Bridge {
   void climb(UTime now);
   void follow(UTime now);
   void stay_while_apart(UTime now);
+  [[nodiscard]] bool has_lost_odometry(UTime now);
   void step_landing(UTime now);
   void stand_back(const std::string& why);
   void hold_here(UTime now);
@@ -191,6 +209,7 @@ class Bridge {
   [[nodiscard]] std::string not_ready(UTime now) const;
   [[nodiscard]] std::string parameters_fault() const;
   [[nodiscard]] std::string estimate_fault(UTime now) const;
+  [[nodiscard]] std::string odometry_fault(UTime now) const;
   [[nodiscard]] std::string why_not_following(UTime now) const;
   [[nodiscard]] bool setpoint_near(UTime now) const;
   [[nodiscard]] std::vector<RequiredParameter> required() const;
@@ -207,6 +226,9 @@ class Bridge {
   [[nodiscard]] Vec3 fed_forward(const MotionSample& m, bool following, UTime now) const;
   [[nodiscard]] MotionSample with_feed_forward(const MotionSample& m, bool following, UTime now);
   [[nodiscard]] bool is_ground_station() const;
+
+  // Errors of the estimate (bridge_odometry.cpp).
+  void take_estimate();
 
   void receive_answer(const CommandAck& ack);
   void watch_clock();
@@ -238,6 +260,10 @@ class Bridge {
   std::optional<UTime> streaming_since_, arm_asked_;
   VisionCheck vision_;
   UTime sent_vision_;  ///< time of the newest state sent as ODOMETRY
+  OdometryReport report_;
+  FlownFrame frame_;
+  ClockFit companion_clock_;
+  Outbox companion_out_;
   TruthAnchor truth_;
   TiltRamp tilt_ramp_;
   TrackingReport tracking_;

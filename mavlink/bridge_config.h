@@ -11,6 +11,13 @@ enum class Start {
   Arm     ///< the bridge requests OFFBOARD (GUIDED), arms and climbs
 };
 
+/// The sender that states the errors of the vehicle's pose.
+enum class OdometrySource {
+  None,
+  Autopilot,  ///< its ODOMETRY
+  Companion   ///< the ODOMETRY of another estimator, on a link of its own
+};
+
 struct BridgeConfig {
   Start start = Start::Pilot;
   int system = 0;
@@ -31,6 +38,11 @@ struct BridgeConfig {
   bool without_remote = false;
   bool external_vision = false;
   double vision_apart_m = 1.0;
+  OdometrySource odometry = OdometrySource::None;
+  double odometry_sigma_m = 0.0;
+  double odometry_sigma_deg = 0.0;
+  bool odometry_correlated = true;
+  double odometry_max_sigma_m = 2.0;
 
   template <typename V>
   void visit(V& v) {
@@ -68,6 +80,21 @@ struct BridgeConfig {
     v("vision_apart_m", vision_apart_m, Range{0.1, 100.0},
       "the autopilot's estimate may be this far from `external_vision`, level and vertically, m; beyond it the vehicle "
       "does not take off, or lands. Measured: 0.04 to 0.2 m, at most 0.6 m");
+    v("odometry", odometry,
+      KnobWords<OdometrySource>{{"none", OdometrySource::None},
+                                {"autopilot", OdometrySource::Autopilot},
+                                {"companion", OdometrySource::Companion}},
+      "publish ODOMETRY with its covariance: that of the autopilot, or of another estimator at `--odometry`; "
+      "`none`: the margins know no error of the estimate");
+    v("odometry_sigma_m", odometry_sigma_m, Range{0.0, 100.0},
+      "standard deviation of the position per axis where ODOMETRY leaves it open (NaN or 0), m; 0: it is not flown by");
+    v("odometry_sigma_deg", odometry_sigma_deg, Range{0.0, 90.0},
+      "standard deviation of the rotation per axis where ODOMETRY leaves it open, degrees; 0: it is not flown by");
+    v("odometry_correlated", odometry_correlated,
+      "correlations that ODOMETRY leaves open, as a PX4 does, may have any value: twice the sums of the "
+      "variances bound them; false: they are 0");
+    v("odometry_max_sigma_m", odometry_max_sigma_m, Range::positive(1000.0),
+      "the vehicle does not follow while the position's standard deviation is above this, m: it comes to rest");
   }
 };
 

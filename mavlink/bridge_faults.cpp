@@ -32,6 +32,7 @@ std::string Bridge::not_ready(UTime now) const {
   if (std::string fault = clock_fault(autopilot_); !fault.empty()) return fault;
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
   if (std::string fault = vision_.fault(); !fault.empty()) return fault;
+  if (std::string fault = odometry_fault(now); !fault.empty()) return fault;
   if (!autopilot_.landed()) return "it does not report whether it has landed (EXTENDED_SYS_STATE)";
   return parameters_fault();
 }
@@ -43,6 +44,10 @@ std::string Bridge::estimate_fault(UTime now) const {
   const auto seen = vision_.newest_vision();
   const bool is_silent = config_.external_vision && !(seen && now - *seen <= kStateAge);
   return is_silent ? "there is no external vision to send (HIL_STATE_QUATERNION, VEHICLE_TRUTH)" : "";
+}
+
+std::string Bridge::odometry_fault(UTime now) const {
+  return config_.odometry == OdometrySource::None ? "" : report_.fault(now);
 }
 
 std::string Bridge::why_not_following(UTime now) const {
@@ -58,6 +63,7 @@ std::string Bridge::why_not_following(UTime now) const {
   if (std::string fault = link_fault(autopilot_, now); !fault.empty()) return fault;
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
   if (std::string fault = vision_.fault(); !fault.empty()) return fault;
+  if (std::string fault = odometry_fault(now); !fault.empty()) return fault;
   if (!setpoint_received_) return "no SETPOINT was received";
   if (!setpoint_near(now)) return fmt::format("SETPOINT is more than {:g} m from the vehicle", config_.far_m);
   return tilt_fault(autopilot_, tilt_ramp_, now);

@@ -149,12 +149,13 @@ void Bridge::stream(UTime now) {
     last_sent_.yaw = yaw;
     tracking_.sent(sent);
   }
+  const MotionSample there = frame_.commanded(sent);
   SetPositionTargetLocalNed target;
   target.time_boot_ms = static_cast<std::uint32_t>(autopilot_.clock().theirs_us(now).value_or(0) / 1000);
-  target.p = ned_of(sent.p - origin_);
-  target.v = ned_of(sent.v);
-  target.a = ned_of(sent.a);
-  target.yaw = static_cast<float>(swapped_yaw(yaw));
+  target.p = ned_of(there.p - origin_);
+  target.v = ned_of(there.v);
+  target.a = ned_of(there.a);
+  target.yaw = static_cast<float>(swapped_yaw(frame_.commanded_yaw(yaw)));
   target.type_mask = kAllButYawRate;
   target.target_system = out_.target().system;
   target.target_component = out_.target().component;

@@ -164,6 +164,18 @@ void Bridge::stay_while_apart(UTime now) {
   if (vision_.apart_for() >= kApartPatience) land(vision_.fault());
 }
 
+/// SETPOINT is flown on until it rests, so the vehicle ends where its last plan ends.
+bool Bridge::has_lost_odometry(UTime now) {
+  constexpr double kRests = 0.01;  // m/s
+  const bool rests = at_.stage == Stage::Following && command_.sample(now).v.norm() < kRests;
+  if (odometry_fault(now).empty() || !rests) {
+    at_.lost_since.reset();
+  } else if (!at_.lost_since) {
+    at_.lost_since = now;
+  }
+  return at_.lost_since && now - *at_.lost_since >= kOdometryPatience;
+}
+
 void Bridge::step_flying(UTime now) {
   if (!autopilot_.linked(now)) return;
   if (!autopilot_.armed()) return stand_back("the autopilot has disarmed");
@@ -172,6 +184,7 @@ void Bridge::step_flying(UTime now) {
     return land(fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
   }
   watch_clock();
+  if (has_lost_odometry(now)) return land(odometry_fault(now));
   if (!vision_.fault().empty()) return stay_while_apart(now);
   at_.stage == Stage::Climbing ? climb(now) : follow(now);
 }

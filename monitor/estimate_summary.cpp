@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "monitor/estimate_watch.h"
@@ -10,9 +11,9 @@ std::string to_text(const EstimateMeasures& e) {
   std::string text = fmt::format(
       "  estimate      error {:.2f} m at the end, {:.2f} m at worst, {:.2f} m rms; stated σ {:.2f} m, {:.2f} m\n",
       e.end_m, e.peak_m, e.rmse_m, e.sigma_end_m, e.sigma_peak_m);
-  text +=
-      fmt::format("                ANEES {:.2f}, inside its 99 % bound {:.1f} % of the time, {:.1f} s nearly blind\n",
-                  e.anees, 100.0 * e.coverage, e.blind_s);
+  const std::string blind = std::isnan(e.blind_s) ? "" : fmt::format(", {:.1f} s nearly blind", e.blind_s);
+  text += fmt::format("                ANEES {:.2f}, inside its 99 % bound {:.1f} % of the time{}\n", e.anees,
+                      100.0 * e.coverage, blind);
   return text + fmt::format("  to the goal   {:.2f} m as believed, {:.2f} m in truth\n", e.believed_to_goal_m,
                             e.true_to_goal_m);
 }

@@ -59,6 +59,7 @@ void EstimateWatch::compare(const Odometry& odometry, const Vec3& truth) {
   squares_ += error.squaredNorm();
   nees_ += nees / 3.0;
   covered_ += nees < kChiSquared3 ? 1.0 : 0.0;
+  states_tracks_ = states_tracks_ || odometry.tracks > 0;
   if (compared_ && odometry.tracks < kFewTracks) {
     const double passed = (odometry.at - *compared_).seconds();
     if (passed < kLongestGap) sums_.blind_s += passed;
@@ -70,6 +71,7 @@ std::optional<EstimateMeasures> EstimateWatch::measures(const Vec3& goal) const 
   if (count_ == 0) return std::nullopt;
   EstimateMeasures measures = sums_;
   const auto n = static_cast<double>(count_);
+  if (!states_tracks_) measures.blind_s = std::nan("");
   measures.rmse_m = std::sqrt(squares_ / n);
   measures.anees = nees_ / n;
   measures.coverage = covered_ / n;

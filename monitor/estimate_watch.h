@@ -24,7 +24,7 @@ struct EstimateMeasures {
   double peak_m = 0.0, sigma_peak_m = 0.0;  ///< largest
   double rmse_m = 0.0;
   double anees = 0.0, coverage = 0.0;
-  double blind_s = 0.0;             ///< time with fewer than kFewTracks tracks, s
+  double blind_s = 0.0;             ///< time with fewer than kFewTracks tracks, s; NaN: tracks were never stated
   std::int64_t corrections = 0;     ///< epochs of T_WO
   double believed_to_goal_m = 0.0;  ///< distance of UAV_STATE from the goal
   double true_to_goal_m = 0.0;      ///< distance of VEHICLE_TRUTH from it
@@ -48,7 +48,7 @@ class EstimateWatch {
 
   std::deque<UavState> truths_;
   std::deque<Odometry> waiting_;
-  bool has_moved_ = false;
+  bool has_moved_ = false, states_tracks_ = false;
   std::optional<Vec3> believed_, true_;
   std::optional<UTime> compared_;
   EstimateMeasures sums_;

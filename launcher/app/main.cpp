@@ -37,9 +37,9 @@ int main(int argc, char** argv) {
   fly.add_option("--page", options.page, "Folder of tern-viewer's page");
   fly.add_flag("--allow-goals", options.allow_goals, "Pages may send goals");
   fly.add_option("--autopilot", options.autopilot, "Autopilot that flies the vehicle (tern-mavlink)");
+  fly.add_option("--odometry", options.odometry, "Where another estimator sends MAVLink's ODOMETRY (tern-mavlink)");
   fly.add_flag("--autopilot-sim", options.autopilot_sim, "The autopilot is tern-autopilot-sim");
-  fly.add_option("--mission", options.mission,
-                 "Mission that tern-mission flies: a file, or the URL of a ground station");
+  fly.add_option("--mission", options.mission, "Mission that tern-mission flies: a file, or a ground station's URL");
   fly.add_flag("--audit", options.audit, "Run tern-audit after the flight");
   fly.add_flag("--report", options.report, "Run tern-report after the flight");
   fly.add_option("--failed", failed, "Do not fly; write a summary with this reason of failure");

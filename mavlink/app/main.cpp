@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
   using namespace tern::mavlink;
-  std::string url, key_file;
+  std::string url, key_file, odometry_url;
   const tern::ProcessDescription description{
       .name = "tern-mavlink",
       .section = "mavlink",
@@ -18,6 +18,9 @@ int main(int argc, char** argv) {
             app.add_option("--connect", url,
                            "udp://ADDRESS:PORT (listens), udp://ADDRESS:PORT@ADDRESS:PORT (listens and sends first), "
                            "udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD");
+            app.add_option("--odometry", odometry_url,
+                           "With `mavlink.odometry: companion`, where the other estimator sends its ODOMETRY: a URL as "
+                           "of --connect");
             app.add_option("--signing-key", key_file,
                            "Sign MAVLink frames with this secret (file of 32 bytes, mode 600)");
           },
@@ -37,6 +40,11 @@ int main(int argc, char** argv) {
       throw tern::ConfigError("--pace: a real autopilot's clock cannot be slowed; use --pace 1");
     }
     auto link = tern::value_or_throw(open_link(url), "--connect ");
-    return std::make_unique<MavlinkNode>(context.bus, std::move(link), context.scenario.uav, config, key);
+    if ((config.odometry == OdometrySource::Companion) == odometry_url.empty())
+      throw tern::ConfigError("mavlink.odometry: companion and --odometry URL belong together");
+    auto estimator =
+        odometry_url.empty() ? nullptr : tern::value_or_throw(open_link(odometry_url, Peer::Estimator), "--odometry ");
+    return std::make_unique<MavlinkNode>(context.bus, std::move(link), context.scenario.uav, config, key,
+                                         std::move(estimator));
   });
 }

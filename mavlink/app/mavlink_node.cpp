@@ -14,6 +14,8 @@ namespace {
 
 /// Period of polling the link.
 constexpr Duration kPollPeriod{2'000};
+/// 30 Hz, as a camera's estimator.
+constexpr Duration kOdometryPeriod{33'000};
 constexpr Duration kStatusPeriod{100'000}, kReportPeriod{10'000'000};
 /// An autopilot sends HEARTBEAT once a second.
 constexpr Duration kFirstHeartbeat{2'000'000};
@@ -25,9 +27,10 @@ constexpr Duration kOrdersUnderWay{300'000};
 }  // namespace
 
 MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& uav, const BridgeConfig& config,
-                         std::optional<SigningKey> key)
+                         std::optional<SigningKey> key, std::unique_ptr<Link> estimator)
     : bus_(bus),
       link_(std::move(link)),
+      estimator_(std::move(estimator)),
       key_(std::move(key)),
       parser_(key_),
       bridge_(config, uav, bus.clock().now()),
@@ -155,6 +158,7 @@ void MavlinkNode::exchange(UTime now) {
     for (const Frame& frame : parser_.push(portion->bytes, time)) bridge_.receive(frame, received_);
     if (link_->datagrams()) parser_.drop_rest();
   }
+  if (estimator_) exchange_with_estimator(now);
   bridge_.step(now);
   for (const Frame& frame : bridge_.take_frames()) {
     signature_time_ = std::max(signature_time_ + 1, time);
@@ -163,12 +167,35 @@ void MavlinkNode::exchange(UTime now) {
   log_lines();
 }
 
+void MavlinkNode::exchange_with_estimator(UTime now) {
+  const auto of_unix = [this](std::int64_t unix_us) { return bus_.clock().at_system_time(unix_us); };
+  while (const auto portion = estimator_->receive(now)) {
+    const UTime came = portion->unix_us ? of_unix(*portion->unix_us) : now;
+    for (const Frame& frame : estimator_parser_.push(portion->bytes)) {
+      bridge_.receive_companion(frame, std::min(came, now), of_unix);
+    }
+    if (estimator_->datagrams()) estimator_parser_.drop_rest();
+  }
+  for (const Frame& frame : bridge_.take_companion_frames()) estimator_->send(to_bytes(frame));
+}
+
 void MavlinkNode::log_lines() {
   for (const std::string& words : link_->take_log_lines()) log::warn("{}", words);
   for (const std::string& words : bridge_.take_log_lines()) log::info("{}", words);
 }
 
+void MavlinkNode::publish_estimate() {
+  const auto& estimate = bridge_.estimate();
+  if (!estimate) return;
+  const auto& before = published_estimate_;
+  const bool changed = before && (estimate->state != before->state || estimate->epoch != before->epoch);
+  if (before && estimate->at < before->at + (changed ? Duration{1} : kOdometryPeriod)) return;
+  published_estimate_ = estimate;
+  bus_.publish(channels::kOdometry, *estimate);
+}
+
 void MavlinkNode::publish(UTime now) {
+  publish_estimate();
   if (const auto state = bridge_.state(); state && state->at > published_state_) {
     published_state_ = state->at;
     bus_.publish(channels::kUavState, *state);

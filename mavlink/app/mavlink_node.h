@@ -14,7 +14,7 @@
 namespace tern::mavlink {
 
 /// Connects a Bridge to the bus. Receives SETPOINT, HORIZON_REQUEST, PLAN, GOAL and FLIGHT_RESULT; publishes UAV_STATE,
-/// VEHICLE_STATUS, and VEHICLE_TRUTH if the autopilot reports it.
+/// VEHICLE_STATUS, and VEHICLE_TRUTH if the autopilot reports it. With `odometry` it publishes ODOMETRY.
 ///
 /// - A GOAL of mode Go with a larger id than all before orders the bridge to fly (again).
 /// - The first GOAL of mode Go orders nothing if its id, as a time in µs, is before the start of this process. It may
@@ -34,7 +34,7 @@ class MavlinkNode final : public Node {
       kSetBackPatience{3'000'000};
   static constexpr int kExitArmed = 5;  ///< docs/reference/exit_codes.md
   MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& uav, const BridgeConfig& config,
-              std::optional<SigningKey> key);
+              std::optional<SigningKey> key, std::unique_ptr<Link> estimator = nullptr);
   ~MavlinkNode() override;
 
   [[nodiscard]] UTime next_wakeup() const override { return next_; }
@@ -53,15 +53,18 @@ class MavlinkNode final : public Node {
   void finish(int code);
   void end_armed(const std::string& why);
   void exchange(UTime now);
+  void exchange_with_estimator(UTime now);
   void publish(UTime now);
+  void publish_estimate();
   void land();
   void log_lines();
   [[nodiscard]] bool alone(UTime now) const;
 
   Bus& bus_;
   std::unique_ptr<Link> link_;
+  std::unique_ptr<Link> estimator_;  ///< of a companion; may be null
   std::optional<SigningKey> key_;
-  Parser parser_;
+  Parser parser_, estimator_parser_;
   Bridge bridge_;
   UTime begun_, next_, next_status_;
   UTime received_;  ///< receive time of the newest bytes, at most now
@@ -72,6 +75,7 @@ class MavlinkNode final : public Node {
   std::optional<std::int64_t> goal_id_;  ///< the largest received
   bool executor_gave_up_ = false;
   UTime published_state_, published_truth_;
+  std::optional<tern::Odometry> published_estimate_;
   bool followed_ = false;
   std::optional<UTime> stood_back_;  ///< since when the bridge stands back; nullopt: it does not
   std::uint64_t signature_time_ = 0;

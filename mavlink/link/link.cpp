@@ -25,8 +25,10 @@ constexpr std::size_t kMaxDatagram = 65'536;
 constexpr Duration kPeerSilence{3'000'000};
 constexpr std::uint8_t kAutopilotComponent = 1, kInvalidAutopilot = 8;
 
-bool introduces_autopilot(std::span<const std::uint8_t> bytes) {
+bool introduces(Peer peer, std::span<const std::uint8_t> bytes) {
   for (const Frame& frame : Parser().push(bytes)) {
+    if (peer == Peer::Estimator && frame.id == Odometry::kId) return true;
+    if (peer == Peer::Estimator) continue;
     const auto heartbeat = from_frame<Heartbeat>(frame);
     if (heartbeat && frame.from.component == kAutopilotComponent && heartbeat->autopilot != kInvalidAutopilot)
       return true;
@@ -36,9 +38,9 @@ bool introduces_autopilot(std::span<const std::uint8_t> bytes) {
 
 class UdpLink final : public Link {
  public:
-  /// @param peer  nullopt: the first autopilot that sends  @param accepts_all  accept datagrams of all senders
-  UdpLink(Descriptor socket, std::optional<sockaddr_in> peer, bool accepts_all)
-      : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()), accepts_all_(accepts_all) {}
+  /// @param peer  nullopt: the first of this kind that sends  @param accepts_all  accept datagrams of all senders
+  UdpLink(Descriptor socket, std::optional<sockaddr_in> peer, Peer kind, bool accepts_all)
+      : socket_(std::move(socket)), peer_(peer), kind_(kind), fixed_(peer.has_value()), accepts_all_(accepts_all) {}
 
   std::optional<Portion> receive(UTime now) override {
     Portion portion{Bytes(kMaxDatagram), {}};
@@ -69,7 +71,7 @@ class UdpLink final : public Link {
     if (accepts_all_) return true;
     const bool same = peer_ && from.sin_port == peer_->sin_port && from.sin_addr.s_addr == peer_->sin_addr.s_addr;
     if (same || fixed_) return same;
-    if ((peer_ && now - last_ < kPeerSilence) || !introduces_autopilot(bytes)) return false;
+    if ((peer_ && now - last_ < kPeerSilence) || !introduces(kind_, bytes)) return false;
     peer_ = from;
     return true;
   }
@@ -97,6 +99,7 @@ class UdpLink final : public Link {
 
   Descriptor socket_;
   std::optional<sockaddr_in> peer_;
+  Peer kind_;
   bool fixed_, accepts_all_;
   UTime last_;
   std::int64_t strangers_ = 0;
@@ -202,9 +205,9 @@ std::optional<sockaddr_in> address_of(const std::string& place) {
   return address;
 }
 
-/// @param here  own address; nullopt: any port  @param there  the peer; nullopt: the first autopilot that sends
+/// @param here  own address; nullopt: any port  @param there  the peer; nullopt: the first of this kind that sends
 Result<std::unique_ptr<Link>> open_udp(const std::string& url, const std::optional<std::string>& here,
-                                       const std::optional<std::string>& there) {
+                                       const std::optional<std::string>& there, Peer kind) {
   const auto own = here ? address_of(*here) : std::nullopt, peer = there ? address_of(*there) : std::nullopt;
   if ((here && !own) || (there && !peer)) return fail(url + ": not ADDRESS:PORT with a numeric IPv4 address");
   Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
@@ -215,7 +218,7 @@ Result<std::unique_ptr<Link>> open_udp(const std::string& url, const std::option
     return fail(fmt::format("{}: {}{}", url, std::strerror(errno),
                             errno == EADDRINUSE ? ": another bridge or ground station listens there" : ""));
   }
-  return std::make_unique<UdpLink>(std::move(socket), peer, !own);
+  return std::make_unique<UdpLink>(std::move(socket), peer, kind, !own);
 }
 
 Result<std::unique_ptr<Link>> open_serial(const std::string& url, const std::string& place) {
@@ -232,17 +235,17 @@ Result<std::unique_ptr<Link>> open_serial(const std::string& url, const std::str
 
 }  // namespace
 
-Result<std::unique_ptr<Link>> open_link(const std::string& url) {
+Result<std::unique_ptr<Link>> open_link(const std::string& url, Peer peer) {
   const auto after = [&](const std::string& scheme) -> std::optional<std::string> {
     if (!url.starts_with(scheme)) return std::nullopt;
     return url.substr(scheme.size());
   };
   if (const auto place = after("udp://")) {
     const std::size_t at = place->find('@');
-    if (at == std::string::npos) return open_udp(url, *place, {});
-    return open_udp(url, place->substr(0, at), place->substr(at + 1));
+    if (at == std::string::npos) return open_udp(url, *place, {}, peer);
+    return open_udp(url, place->substr(0, at), place->substr(at + 1), peer);
   }
-  if (const auto place = after("udpout://")) return open_udp(url, {}, *place);
+  if (const auto place = after("udpout://")) return open_udp(url, {}, *place, peer);
   if (const auto place = after("serial://")) return open_serial(url, *place);
   return fail(url + ": neither udp://, udpout:// nor serial://");
 }

@@ -36,6 +36,12 @@ class Link {
   virtual std::vector<std::string> take_log_lines() { return {}; }
 };
 
+/// The sender that a listening link takes for its peer.
+enum class Peer : std::uint8_t {
+  Autopilot,  ///< sends an autopilot's HEARTBEAT
+  Estimator,  ///< sends ODOMETRY
+};
+
 /// Opens a link.
 ///
 /// | URL                                  | link                                                                    |
@@ -45,9 +51,9 @@ class Link {
 /// | udpout://ADDRESS:PORT                | sends to that address, from any port                                    |
 /// | serial:///dev/NAME:BAUD              | a serial port, raw, 8N1; a port that was unplugged is opened again      |
 ///
-/// The peer of a listening link is the first sender of an autopilot's HEARTBEAT. After 3 s of its silence another
-/// sender may become the peer. The second form is for an autopilot that answers only to the first port that speaks to
+/// The peer of a listening link is the first sender of what `peer` says. After 3 s of its silence another sender may
+/// become the peer. The second form is for an autopilot that answers only to the first port that speaks to
 /// it (PX4). ADDRESS is numeric IPv4.
-Result<std::unique_ptr<Link>> open_link(const std::string& url);
+Result<std::unique_ptr<Link>> open_link(const std::string& url, Peer peer = Peer::Autopilot);
 
 }  // namespace tern::mavlink

@@ -292,6 +292,7 @@ void SimulatedAutopilot::fly(UTime now) {
     model_.command(command_);
     model_.set_armed(rotors_lift(t));
     limit_tilt(kVehicleStep.seconds());
+    grow_sigma(kVehicleStep.seconds());
     model_.advance(t);
     if (!model_.truth().on_ground || mode_ != Mode::Land || !armed_) {
       landed_since_.reset();
@@ -302,6 +303,8 @@ void SimulatedAutopilot::fly(UTime now) {
     }
   }
 }
+
+void SimulatedAutopilot::grow_sigma(double dt) { parameters_["SIM_ODO_SIGMA"] += dt * parameters_["SIM_ODO_GROW"]; }
 
 void SimulatedAutopilot::step(UTime now) {
   now_ = now;

@@ -84,7 +84,9 @@ struct SimulatedAutopilotConfig {
 /// - ArduPilot's home is where it was armed, shifted up by SIM_HOME_UP.
 ///
 /// Own parameters: SIM_ARM_REFUSE (refuses to arm), SIM_BAT_PCT (battery charge, %), SIM_EST_JUMP (writing it shifts
-/// the estimate by so many metres), SIM_EV_JUMP.
+/// the estimate by so many metres), SIM_EV_JUMP. ODOMETRY states variances and no correlations, as a PX4 does. Its
+/// position has the deviation SIM_ODO_SIGMA (m), which grows by SIM_ODO_GROW (m/s). With SIM_ODO_NAN it states none.
+/// The velocity's deviation is SIM_ODO_VEL (m/s). SIM_ODO_QUAL is its quality, and SIM_ODO_OFF ends it.
 class SimulatedAutopilot {
  public:
   SimulatedAutopilot(const SimulatedAutopilotConfig& config, std::uint64_t seed, UTime now);
@@ -141,9 +143,11 @@ class SimulatedAutopilot {
   void send_parameter(const std::string& name);
   void watch_offboard(UTime now);
   void fly(UTime now);
+  void grow_sigma(double dt);
   void send_streams(UTime now);
   void send_stream(std::uint32_t id, UTime now);
   void send_odometry();
+  void state_errors(Odometry& m) const;
   void send_truth();
   void send_warning(const std::string& words);
   [[nodiscard]] std::uint64_t clock_us(UTime now) const;

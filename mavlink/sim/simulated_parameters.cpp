@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -23,6 +24,8 @@ bool is_integer(const std::string& name) { return std::ranges::find(kIntegers, n
 
 std::map<std::string, double> SimulatedAutopilot::default_parameters(const SimulatedAutopilotConfig& config) {
   const double hover = 1.0 / config.quadrotor.body.thrust_to_weight;
+  const EstimatorSpec& errs = config.estimator;
+  const double sigma = std::max(0.03, std::hypot(errs.position_sigma_m, errs.drift_m));
   return {{"COM_OBL_RC_ACT", 0.0},   {"COM_OF_LOSS_T", 1.0},     {"MPC_XY_VEL_D_ACC", config.velocity_d},
           {"COM_RC_IN_MODE", 3.0},   {"COM_RCL_EXCEPT", 0.0},    {"NAV_DLL_ACT", 2.0},
           {"MPC_XY_VEL_MAX", 12.0},  {"MPC_Z_VEL_MAX_UP", 3.0},  {"MPC_Z_VEL_MAX_DN", 1.5},
@@ -31,6 +34,8 @@ std::map<std::string, double> SimulatedAutopilot::default_parameters(const Simul
           {"EKF2_MAG_TYPE", 0.0},    {"EKF2_BARO_CTRL", 1.0},    {"SIM_ARM_REFUSE", 0.0},
           {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0},      {"GUID_TIMEOUT", 3.0},
           {"SIM_EV_JUMP", 8.3},      {"FS_GCS_ENABLE", 0.0},     {"SIM_HOME_UP", 0.0},
+          {"SIM_ODO_SIGMA", sigma},  {"SIM_ODO_GROW", 0.0},      {"SIM_ODO_NAN", 0.0},
+          {"SIM_ODO_VEL", 0.05},     {"SIM_ODO_QUAL", 0.0},      {"SIM_ODO_OFF", 0.0},
           {"MC_AIRMODE", 0.0},       {"MPC_ACC_DECOUPLE", 1.0},  {"MAV_GCS_SYSID", 255.0},
           {"ATC_ANGLE_MAX", 30.0},   {"PSC_JERK_NE", 5.0},       {"PSC_JERK_D", 5.0},
           {"GUID_OPTIONS", 0.0},     {"PSC_NE_POS_P", 1.0},      {"PSC_NE_VEL_P", 2.0},

@@ -1,6 +1,7 @@
 // The simulated autopilot's streams and acknowledgements.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "mavlink/autopilot.h"
@@ -53,7 +54,21 @@ std::uint32_t SimulatedAutopilot::custom_mode() const {
   return 0;
 }
 
+void SimulatedAutopilot::state_errors(Odometry& m) const {
+  constexpr float kTilt = 9e-6F, kHeading = 1e-4F;  // 0.17°, 0.57°
+  const auto sigma = static_cast<float>(parameters_.at("SIM_ODO_SIGMA"));
+  const auto velocity = static_cast<float>(parameters_.at("SIM_ODO_VEL"));
+  m.pose_covariance.fill(std::numeric_limits<float>::quiet_NaN());
+  m.velocity_covariance.fill(std::numeric_limits<float>::quiet_NaN());
+  if (parameters_.at("SIM_ODO_NAN") != 0.0) return;
+  for (const int k : {0, 6, 11}) m.pose_covariance[idx(k)] = sigma * sigma;
+  for (const int k : {0, 6, 11}) m.velocity_covariance[idx(k)] = velocity * velocity;
+  m.pose_covariance[15] = m.pose_covariance[18] = kTilt;
+  m.pose_covariance[20] = kHeading;
+}
+
 void SimulatedAutopilot::send_odometry() {
+  if (parameters_["SIM_ODO_OFF"] != 0.0) return;
   const UavState estimate = model_.estimate();
   const Eigen::Quaterniond q = swapped(model_.truth().q);
   Odometry m;
@@ -66,6 +81,8 @@ void SimulatedAutopilot::send_odometry() {
   m.frame_id = is_ardupilot() ? kLocalFrd : kLocalNed;
   m.child_frame_id = 12;
   m.reset_counter = static_cast<std::uint8_t>(model_.resets());
+  m.quality = static_cast<std::int8_t>(parameters_["SIM_ODO_QUAL"]);
+  state_errors(m);
   send(m);
 }
 

@@ -51,6 +51,8 @@ TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
   LaunchOptions options = demo();
   options.autopilot = "udp://127.0.0.1:14540";
   EXPECT_EQ(names(flight_processes(options, "r", {})).back(), "tern-mavlink");
+  options.odometry = "udp://127.0.0.1:14560";
+  EXPECT_EQ(flight_processes(options, "r", {}).back().child.command.back(), options.odometry);
   options.autopilot_sim = true;
   const auto processes = flight_processes(options, "r", {});
   EXPECT_EQ(processes.back().name, "tern-autopilot-sim");

@@ -6,7 +6,9 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <chrono>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -225,6 +227,43 @@ TEST_F(MavlinkProcesses, TheOneOfTwoIsKilledComesBackAndLands) {
   bridge->signal(SIGTERM);
   EXPECT_TRUE(until([&] { return !status.armed; }));
   EXPECT_EQ(bridge->wait(), 0);
+}
+
+/// The companion's estimator sends to a port of the bridge's, by the system's clock.
+TEST_F(MavlinkProcesses, PublishACompanionsOdometryAndSayWhatItLacks) {
+  const Socket companion;
+  const int port = Socket().port();
+  std::optional<tern::Odometry> estimate;
+  bus->subscribe(channels::kOdometry, [&](const tern::Odometry& odometry) { estimate = odometry; });
+  start_bridge({"--odometry", "udp://127.0.0.1:" + std::to_string(port), "--set", "mavlink.odometry=companion"});
+  Odometry m;
+  m.q = {1, 0, 0, 0};
+  m.frame_id = m.child_frame_id = 20;
+  m.quality = 100;
+  m.pose_covariance[0] = std::numeric_limits<float>::quiet_NaN();
+  const auto say = [&] {
+    m.time_usec = static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+            .count());
+    companion.send(to_bytes(to_frame(m, {1, 197}, 0)), port);
+  };
+  EXPECT_TRUE(until([&] {
+    say();
+    return status.why_not.find("it does not state how wrong its position is") != std::string::npos;
+  })) << status.why_not;
+  EXPECT_FALSE(estimate);
+  for (const std::size_t k : {0U, 6U, 11U, 15U, 18U, 20U}) m.pose_covariance[k] = 0.04F;
+  for (const std::size_t k : {0U, 6U, 11U}) m.velocity_covariance[k] = 0.01F;
+  EXPECT_TRUE(until([&] {
+    say();
+    return estimate.has_value();
+  })) << status.why_not;
+  EXPECT_NEAR(estimate->pose_covariance[0], 0.04, 1e-6);
+  EXPECT_LT(clock.now() - estimate->at, Duration{1'000'000});
+  EXPECT_TRUE(until([&] {
+    say();
+    return status.following || status.mode == "OFFBOARD";
+  })) << status.why_not;
 }
 
 TEST_F(MavlinkProcesses, FlyAndLandWhenAskedToEnd) {

@@ -84,5 +84,19 @@ TEST(EstimateWatch, CountsTheTimeWithFewTracks) {
   EXPECT_NEAR(watch.measures(Vec3::Zero())->blind_s, 2.0, 1e-9);
 }
 
+TEST(EstimateWatch, SaysNothingOfTracksThatNobodyStates) {
+  EstimateWatch watch;
+  watch.add_truth(truth_at(0.0));
+  for (int k = 1; k <= 10; ++k) {
+    Odometry odometry = odometry_at(0.05 * k, Vec3::Zero(), 0.1);
+    odometry.tracks = 0;
+    watch.add(odometry);
+    watch.add_truth(truth_at(0.05 * k));
+  }
+  const EstimateMeasures measures = *watch.measures(Vec3::Zero());
+  EXPECT_EQ(to_text(measures).find("nearly blind"), std::string::npos);
+  EXPECT_NE(with_estimate("{}", measures).find("\"blind_s\": null"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tern
