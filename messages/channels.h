@@ -14,6 +14,7 @@
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
 #include "core/world/inertial.h"
+#include "core/world/landmark_densities.h"
 #include "core/world/map_file.h"
 #include "core/world/observation.h"
 #include "core/world/plan_heading.h"
@@ -142,6 +143,10 @@ inline constexpr Channel<PlanTiming> kPlanTiming{
 inline constexpr Channel<PlanUnseen> kPlanUnseen{
     "PLAN_UNSEEN", Scope::Vehicle, "one per plan, only with `planner.unseen: passive`", kStream, Role::Planner,
     kShortSilence};
+/// The densities of landmarks that a goal field was made with, where they are not those of the labels.
+inline constexpr Channel<LandmarkDensities> kLandmarkDensities{
+    "LANDMARK_DENSITIES", Scope::Vehicle, "when they change, repeated at 1 Hz; only if they are learnt", kLatched,
+    Role::Planner, kShortSilence};
 /// For display: the nodes of the last search.
 inline constexpr Channel<SearchView> kSearchView{
     "SEARCH_VIEW", Scope::Vehicle, "one per request, only with `planner.publish_search`", kStream, Role::Planner,
@@ -182,7 +187,7 @@ inline constexpr std::tuple kAll{kUavState,          kSetpoint,     kVehicleStat
                                  kPlanUnseen,        kSearchView,   kHeartbeat,     kConfiguration,
                                  kObstacleTruth,     kVehicleTruth, kImu,           kFeatureTracks,
                                  kPositionFix,       kOdometry,     kFlightResult,  kMapFile,
-                                 kSpeedLimit,        kFences,       kPoseError};
+                                 kSpeedLimit,        kFences,       kPoseError,     kLandmarkDensities};
 
 }  // namespace channels
 

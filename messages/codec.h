@@ -59,6 +59,8 @@ inline constexpr const char* kLcmType<TrackSet> = "track_set_t";
 template <>
 inline constexpr const char* kLcmType<PoseError> = "pose_error_t";
 template <>
+inline constexpr const char* kLcmType<LandmarkDensities> = "landmark_densities_t";
+template <>
 inline constexpr const char* kLcmType<TrackBounds> = "track_bounds_t";
 /// Inconsistent: runs end beyond the grid; a class has no name; the first class name has text.
 template <>

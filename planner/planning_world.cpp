@@ -42,7 +42,8 @@ std::vector<double> informed_heights(double goal, double start, const Box& regio
 
 TravelCost priced_way(const GoalFieldKey& key, const MapProducts& map, const std::vector<Box>& static_boxes,
                       const Vec3& start) {
-  const SurfaceMap surfaces = map.surfaces.with_obstacles(static_boxes);
+  const SurfaceMap surfaces =
+      (key.densities ? map.surfaces.with_densities(*key.densities) : map.surfaces).with_obstacles(static_boxes);
   const Box region = informed_region(surfaces, key, start);
   if (region.isEmpty()) return {};
   const auto information =
@@ -109,6 +110,7 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
   error_price = config.error_price.error_price;
   if (error_price > 0.0) {  // it replaces every λ
     surfaces = SurfaceMap(map, config.error_price.landmarks);
+    class_names = map.class_names;
     return;
   }
   SemanticFieldsOptions options;

@@ -5,10 +5,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
+#include "core/world/landmark_densities.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
@@ -68,9 +70,10 @@ struct MapProducts {
   std::uint64_t version = 0;
   BoxIndex occupied;  ///< the obstacle voxels, merged into boxes
   SemanticFields fields;
-  bool semantic_paths = false;  ///< paths around static obstacles include the exposure cost
-  SurfaceMap surfaces;          ///< with an error price: the texture that labels promise
-  double error_price = 0.0;     ///< m/m; > 0: paths include the price of their drift instead of the exposure cost
+  bool semantic_paths = false;           ///< paths around static obstacles include the exposure cost
+  SurfaceMap surfaces;                   ///< with an error price: the landmarks that labels promise
+  std::vector<std::string> class_names;  ///< with an error price: VoxelMap::class_names
+  double error_price = 0.0;  ///< m/m; > 0: paths include the price of their drift instead of the exposure cost
 
   MapProducts(const VoxelMap& map, const PlannerConfig& config);
 };
@@ -82,12 +85,14 @@ struct GoalFieldKey {
   std::uint64_t statics = 0;               ///< digest of the static boxes
   Box body{Vec3(0, 0, 0), Vec3(0, 0, 0)};  ///< the body about its position, by which obstacles are grown, m
   Box flight_box;
-  double speed = 0.0;       ///< of the way, with an error price, m/s; else 0
-  double map_margin = 0.0;  ///< PathObstacles::map_margin, m
+  double speed = 0.0;                              ///< of the way, with an error price, m/s; else 0
+  double map_margin = 0.0;                         ///< PathObstacles::map_margin, m
+  std::optional<SurfaceDensities> densities = {};  ///< with an error price; nullopt: those of the labels
   friend bool operator==(const GoalFieldKey& a, const GoalFieldKey& b) {
     return a.goal == b.goal && a.map_version == b.map_version && a.statics == b.statics && a.speed == b.speed &&
-           a.map_margin == b.map_margin && a.body.min() == b.body.min() && a.body.max() == b.body.max() &&
-           a.flight_box.min() == b.flight_box.min() && a.flight_box.max() == b.flight_box.max();
+           a.map_margin == b.map_margin && a.densities == b.densities && a.body.min() == b.body.min() &&
+           a.body.max() == b.body.max() && a.flight_box.min() == b.flight_box.min() &&
+           a.flight_box.max() == b.flight_box.max();
   }
 };
 

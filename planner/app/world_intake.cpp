@@ -25,6 +25,10 @@ WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& u
   bus.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
   bus.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
+  if (!config.semantics || !config.error_price.learn_densities || !(config.error_price.error_price > 0.0)) return;
+  densities_.emplace();
+  bus.subscribe(channels::kFeatureTracks, [this](const FeatureFrame& frame) { densities_->add(frame); });
+  bus.subscribe(channels::kOdometry, [this](const Odometry& odometry) { on_odometry(odometry); });
 }
 
 PlanningWorld WorldIntake::snapshot() const {
@@ -54,11 +58,13 @@ void WorldIntake::set_vehicle(const HorizonRequest& request) {
   limits_ = request.limits;
   position_ = request.start.p;
   vehicle_ = request.header.name;
+  repeat_densities(bus_.clock().now());
 }
 
 void WorldIntake::forget_before(std::int64_t epoch_us) {
   log::info("requests come from another vehicle: the previous vehicle's goal and static obstacles are discarded");
   statics_ = StaticTracks();
+  if (densities_) densities_.emplace();
   if (const auto predictions = snapshot().predictions) statics_.add(predictions->set);
   const auto is_of_this_flight = [&](const std::optional<Goal>& goal) {
     return goal && (goal->header.name.sender_epoch_us == epoch_us || goal->header.utime.us > epoch_us);
@@ -145,20 +151,14 @@ void WorldIntake::prepare() {
   }
   const PlanningWorld world = snapshot();
   if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
-  const GoalFieldKey key{newest_goal_->position,
-                         world.map->version,
-                         statics_.digest(),
-                         body_,
-                         flight_box_,
-                         way_speed(*world.map, limits_),
-                         statics_.obstacles().map_margin};
+  const GoalFieldKey key = key_now(*world.map);
   if (world.goal && world.goal->field && still_serves(*world.goal, key)) {
     // A repeated goal is published by its new name: plans then name a message that a late logger has received.
     if (world.goal->goal.header.name == newest_goal_->header.name) return;
     return publish(goal_number_, std::make_shared<const GoalProducts>(GoalProducts{
                                      *newest_goal_, world.goal->key, world.goal->field, world.goal->made_from}));
   }
-  const GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
+  const GoalFieldInputs names = names_of(key);
   const bool is_new = !world.goal || world.goal->goal.id != newest_goal_->id;
   start([this, is_new, number = goal_number_, goal = *newest_goal_, key, names, map = world.map,
          obstacles = statics_.obstacles(), at = position_] {
@@ -176,6 +176,43 @@ void WorldIntake::prepare() {
     }
     publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, made.key, field, names}), made);
   });
+}
+
+GoalFieldKey WorldIntake::key_now(const MapProducts& map) const {
+  return {newest_goal_->position,
+          map.version,
+          statics_.digest(),
+          body_,
+          flight_box_,
+          way_speed(map, limits_),
+          statics_.obstacles().map_margin,
+          densities_ ? densities_->densities_for(map) : std::nullopt};
+}
+
+/// Names the inputs of a field, and announces its densities if they are not those of the labels.
+GoalFieldInputs WorldIntake::names_of(const GoalFieldKey& key) {
+  GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
+  announced_.reset();
+  if (!key.densities) return names;
+  announced_ = LandmarkDensities{{}, 0, key.statics, key.map_version, *key.densities};
+  announced_->statics = names.statics = name_of(*announced_);
+  announced_at_ = bus_.clock().now();
+  bus_.publish(channels::kLandmarkDensities, *announced_);
+  return names;
+}
+
+void WorldIntake::repeat_densities(UTime now) {
+  if (!announced_ || now - announced_at_ < kDensitiesRepeated) return;
+  announced_at_ = now;
+  bus_.publish(channels::kLandmarkDensities, *announced_);
+}
+
+void WorldIntake::on_odometry(const Odometry& odometry) {
+  const PlanningWorld world = snapshot();
+  if (!world.map) return;
+  for (const std::string& line : densities_->add(odometry, *world.map, world.predictions.get(), statics_.obstacles())) {
+    log::info("{}", line);
+  }
 }
 
 bool WorldIntake::still_serves(const GoalProducts& goal, const GoalFieldKey& key) const {

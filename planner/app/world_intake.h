@@ -12,6 +12,7 @@
 #include "core/world/pose_error_join.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/worker.h"
+#include "planner/density_watch.h"
 #include "planner/kept_field.h"
 #include "planner/static_tracks.h"
 #include "runtime/batches.h"
@@ -22,8 +23,11 @@ namespace tern {
 /// The vehicle receives a goal at the same time as the planner, and repeats the goal that it flies to. If it still
 /// repeats another goal this long afterwards, that other goal is the one in force.
 inline constexpr Duration kGoalTaken{500'000};
+/// LANDMARK_DENSITIES is repeated for a logger that starts late.
+inline constexpr Duration kDensitiesRepeated{1'000'000};
 
-/// Subscribes to POSE_ERROR, PREDICTIONS, SEMANTIC_MAP and GOAL, and prepares the world of plans.
+/// Subscribes to POSE_ERROR, PREDICTIONS, SEMANTIC_MAP and GOAL, and prepares the world of plans. With
+/// `planner.semantics.learn_densities` and an error price also to FEATURE_TRACKS and ODOMETRY.
 ///
 /// | message                    | effect                                                                              |
 /// |----------------------------|-------------------------------------------------------------------------------------|
@@ -35,7 +39,9 @@ inline constexpr Duration kGoalTaken{500'000};
 /// | a goal to hold or stop     | used at once: it needs no field                                                     |
 /// | a goal with a smaller id   | ignored, unless the vehicle sends it kGoalTaken after the last one                  |
 /// | other contents, same id    | the same, and counted as refused: inconsistent                                      |
-/// | requests of a new vehicle  | goals sent before that flight and remembered static tracks are discarded            |
+/// | features and their pose    | densities of landmarks may change (DensityWatch), and with them the distance field. |
+/// |                            | LANDMARK_DENSITIES names them, now and every kDensitiesRepeated                     |
+/// | requests of a new vehicle  | goals sent before that flight, remembered static tracks and densities are discarded |
 ///
 /// Without a worker (virtual time) products are made at once.
 class WorldIntake {
@@ -66,6 +72,10 @@ class WorldIntake {
   void publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal,
                std::optional<KeptField> made = std::nullopt);
   void note_blocked(std::string blocked);
+  void on_odometry(const Odometry& odometry);
+  [[nodiscard]] GoalFieldKey key_now(const MapProducts& map) const;
+  [[nodiscard]] GoalFieldInputs names_of(const GoalFieldKey& key);
+  void repeat_densities(UTime now);
   [[nodiscard]] bool still_serves(const GoalProducts& goal, const GoalFieldKey& key) const;
   void start(std::function<void()> job);
   void make_map(const VoxelMap& map);
@@ -78,6 +88,9 @@ class WorldIntake {
   MapAssembler assembler_;
   MapProgress map_progress_;
   StaticTracks statics_;
+  std::optional<DensityWatch> densities_;       ///< with `planner.semantics.learn_densities` and an error price
+  std::optional<LandmarkDensities> announced_;  ///< of the newest field, unless it has those of the labels
+  UTime announced_at_;
   std::optional<VoxelMap> pending_map_;
   std::optional<Goal> newest_goal_;
   UTime goal_received_;

@@ -87,11 +87,14 @@ enum class HeadingMode { Along, Planned };
 /// The section `planner.semantics`.
 struct ErrorPriceConfig {
   double error_price = 0.0;
+  bool learn_densities = false;
   LandmarkPriors landmarks;
   template <typename V>
   void visit(V& v) {
     v("error_price", error_price, Range{0.0, 1e4},
       "metres of way that one metre of the position's σ is worth, at the goal and at the worst place; 0: λ applies");
+    v("learn_densities", learn_densities,
+      "with `error_price`: the densities in `landmarks` are corrected by what FEATURE_TRACKS show");
     v("landmarks", landmarks);
   }
 };

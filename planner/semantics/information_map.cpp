@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "planner/semantics/drift.h"
+#include "planner/semantics/side_walk.h"
 
 namespace tern {
 namespace {
@@ -14,7 +14,6 @@ constexpr int kRings = 8;             ///< samples of the ground along a ray, at
 constexpr int kHeights = 4;           ///< samples of an upright side
 constexpr double kNearest = 0.5;      ///< surfaces nearer than this are not sampled, m
 constexpr double kLeastHeight = 0.1;  ///< a camera lower than this sees no ground, m
-constexpr double kAside = 2.0;        ///< beyond the extent of the surfaces there is open ground, m: more than a column
 
 /// Adds the upright side that a ray meets between two columns, at distance s.
 void add_side(const SurfaceColumn& side, const Vec3& eye, const Eigen::Vector2d& direction, double cosine, double s,
@@ -33,56 +32,12 @@ void add_side(const SurfaceColumn& side, const Vec3& eye, const Eigen::Vector2d&
   }
 }
 
-/// The part of a ray, from its start on, that may meet columns other than open ground: the distances where it enters
-/// the extent of the surfaces and leaves it, with kAside on each side; both 0 if it never does.
-std::pair<double, double> within_extent(const SurfaceMap& surfaces, const Vec3& eye, const Eigen::Vector2d& direction,
-                                        double range) {
-  if (surfaces.extent().isEmpty()) return {0.0, 0.0};
-  double enter = 0.0, leave = range;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double low = surfaces.extent().min()[axis] - kAside - eye[axis];
-    const double high = surfaces.extent().max()[axis] + kAside - eye[axis], d = direction[axis];
-    if (std::abs(d) < 1e-9) {
-      if (low > 0.0 || high < 0.0) return {0.0, 0.0};
-      continue;
-    }
-    enter = std::max(enter, std::min(low / d, high / d));
-    leave = std::min(leave, std::max(low / d, high / d));
-  }
-  return enter < leave ? std::pair(enter, leave) : std::pair(0.0, 0.0);
-}
-
 /// Adds the sides along a ray. Returns where it ends: at an opaque column, or at the camera's range, m.
 double add_sides(const SurfaceMap& surfaces, const Vec3& eye, const Eigen::Vector2d& direction, double width,
                  const TextureCamera& camera, ViewInformation& view) {
-  const double step = 0.5 * SurfaceMap::kColumn;
-  const SurfaceColumn* before = &surfaces.at(eye.x(), eye.y());
-  int column = surfaces.column_of(eye.x(), eye.y());
-  Eigen::Vector2d p_before = eye.head<2>();
-  const auto [enter, leave] = within_extent(surfaces, eye, direction, camera.range_m);
-  const int steps = static_cast<int>(camera.range_m / step);
-  for (int k = std::max(1, static_cast<int>(enter / step)); k < steps && k * step <= leave; ++k) {
-    const double s = k * step;
-    const Eigen::Vector2d p = eye.head<2>() + s * direction;
-    const int next = surfaces.column_of(p.x(), p.y());
-    if (next == column) continue;
-    column = next;
-    const SurfaceColumn* now = &surfaces.at(p.x(), p.y());
-    if (now->sides != before->sides && s > kNearest) {
-      // The side lies across the axis in which the density changes; at a corner, across the ray's main axis.
-      const bool across_x = surfaces.at(p.x(), p_before.y()).sides != before->sides;
-      const bool across_y = surfaces.at(p_before.x(), p.y()).sides != before->sides;
-      const double cx = std::abs(direction.x()), cy = std::abs(direction.y());
-      const double cosine = across_x == across_y ? std::max(cx, cy) : across_x ? cx : cy;
-      const SurfaceColumn& side = now->sides > before->sides ? *now : *before;
-      if (cosine > 0.05) add_side(side, eye, direction, cosine, s, width, camera, view);
-    }
-    const bool hides = now->is_opaque && now->low <= eye.z() && eye.z() <= now->high;
-    if (hides) return s;
-    before = now;
-    p_before = p;
-  }
-  return camera.range_m;
+  return walk_sides(surfaces, eye, direction, camera.range_m, [&](const SurfaceColumn& side, double s, double cosine) {
+    if (s > kNearest) add_side(side, eye, direction, cosine, s, width, camera, view);
+  });
 }
 
 void add_ground(const SurfaceMap& surfaces, const Vec3& eye, const Eigen::Vector2d& direction, double width,

@@ -6,8 +6,9 @@
 namespace tern {
 namespace {
 
+/// Returns the promised density of each class of the map, [0]: of open ground.
 std::vector<double> densities_of(const VoxelMap& map, const LandmarkPriors& priors) {
-  std::vector<double> densities(256, priors.ground);
+  std::vector<double> densities(std::max<std::size_t>(map.class_names.size(), 1), priors.ground);
   for (const auto& [name, density] : priors.regions) {
     for (std::size_t c = 1; c < map.class_names.size(); ++c) {
       if (map.class_names[c] == name) densities[c] = density;
@@ -18,19 +19,22 @@ std::vector<double> densities_of(const VoxelMap& map, const LandmarkPriors& prio
 
 bool is_region(VoxelLabel label) { return label == VoxelLabel::Attractive || label == VoxelLabel::Repulsive; }
 
-void raise_sides(SurfaceColumn& column, double density, const Box& box) {
+void raise_sides(SurfaceColumn& column, SurfaceKind kind, double density, const Box& box) {
   const auto low = static_cast<float>(box.min().z()), high = static_cast<float>(box.max().z());
   const bool had_none = column.sides == 0.0f;
   column.low = had_none ? low : std::min(column.low, low);
   column.high = had_none ? high : std::max(column.high, high);
-  column.sides = std::max(column.sides, static_cast<float>(density));
+  if (static_cast<float>(density) <= column.sides) return;
+  column.sides = static_cast<float>(density);
+  column.sides_kind = kind;
 }
 
 }  // namespace
 
 SurfaceMap::SurfaceMap(const VoxelMap& map, const LandmarkPriors& priors)
     : open_{static_cast<float>(priors.ground)}, obstacles_(priors.obstacles), ground_z_(priors.ground_z_m) {
-  const std::vector<double> densities = densities_of(map, priors);
+  promised_ = {priors.obstacles, densities_of(map, priors)};
+  const std::vector<double>& densities = promised_.by_class;
   const auto counts = [&](std::size_t i) { return is_region(map.labels[i]) || map.labels[i] == VoxelLabel::Occupied; };
   const auto voxels = static_cast<std::size_t>(map.grid.voxels());
   for (std::size_t i = 0; i < voxels; ++i) {
@@ -47,11 +51,29 @@ SurfaceMap::SurfaceMap(const VoxelMap& map, const LandmarkPriors& priors)
     }
     const int k = column_of(box.center().x(), box.center().y());
     SurfaceColumn& column = columns_[idx(k)];
-    const double density = densities[map.classes[i]];
-    if (!has_ground[idx(k)]) column.ground = static_cast<float>(density);
+    const SurfaceKind kind = map.classes[i];
+    const double density = densities.at(idx(kind));
+    if (!has_ground[idx(k)]) {
+      column.ground = static_cast<float>(density);
+      column.ground_kind = kind;
+    }
     has_ground[idx(k)] = true;
-    if (density > priors.ground) raise_sides(column, density, box);
+    if (density > priors.ground) raise_sides(column, kind, density, box);
   }
+}
+
+SurfaceMap SurfaceMap::with_densities(const SurfaceDensities& densities) const {
+  const auto density_of = [&](SurfaceKind kind) {
+    return static_cast<float>(kind == kObstacles ? densities.obstacles : densities.by_class.at(idx(kind)));
+  };
+  SurfaceMap made = *this;
+  made.obstacles_ = densities.obstacles;
+  made.open_.ground = density_of(kOpenGround);
+  for (SurfaceColumn& column : made.columns_) {
+    column.ground = density_of(column.ground_kind);
+    if (column.sides > 0.0f) column.sides = density_of(column.sides_kind);
+  }
+  return made;
 }
 
 SurfaceMap SurfaceMap::with_obstacles(const std::vector<Box>& boxes) const {
@@ -89,7 +111,7 @@ void SurfaceMap::put_obstacle(const Box& box) {
   for (int j = cell(box.min().y(), y0_, ny_); j <= cell(box.max().y() - 1e-9, y0_, ny_); ++j) {
     for (int i = cell(box.min().x(), x0_, nx_); i <= cell(box.max().x() - 1e-9, x0_, nx_); ++i) {
       SurfaceColumn& column = columns_[idx(j * nx_ + i)];
-      raise_sides(column, obstacles_, box);
+      raise_sides(column, kObstacles, obstacles_, box);
       column.is_opaque = true;
     }
   }

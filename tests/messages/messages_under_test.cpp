@@ -123,6 +123,9 @@ struct Words {
     (*this)(u.header, u.request_id, u.request, u.start, u.committed_clear, u.plan_clear);
   }
   void add(const PoseError& e) { (*this)(e.header, e.set, e.position, e.pose_covariance, e.apart); }
+  void add(const LandmarkDensities& d) {
+    (*this)(d.header, d.statics, d.tracks, d.map_version, d.densities.obstacles, d.densities.by_class);
+  }
   void add(const CloudPoint& p) { (*this)(p.position, p.class_number); }
   void add(const CloudScan& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.has_classes, s.points);
@@ -194,6 +197,7 @@ template std::vector<std::uint64_t> words_of(const Plan&);
 template std::vector<std::uint64_t> words_of(const PlanTiming&);
 template std::vector<std::uint64_t> words_of(const PlanUnseen&);
 template std::vector<std::uint64_t> words_of(const PoseError&);
+template std::vector<std::uint64_t> words_of(const LandmarkDensities&);
 template std::vector<std::uint64_t> words_of(const SearchView&);
 template std::vector<std::uint64_t> words_of(const TrackBounds&);
 template std::vector<std::uint64_t> words_of(const Heartbeat&);
@@ -241,6 +245,10 @@ std::vector<std::int32_t> array_sizes(const PlanUnseen&) {
 template <>
 std::vector<std::int32_t> array_sizes(const PoseError&) {
   return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const LandmarkDensities& of) {
+  return {size_of(of.densities.by_class)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const SearchView& view) {

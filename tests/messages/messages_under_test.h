@@ -12,9 +12,9 @@ namespace tern {
 
 using AllMessages =
     testing::Types<UavState, VehicleStatus, ObservationSet, SightingSet, CloudScan, DepthImage, TrackSet, MapChunk,
-                   Goal, HorizonRequest, Plan, PlanHeading, PlanTiming, PlanUnseen, PoseError, SearchView, TrackBounds,
-                   Heartbeat, ConfigurationReport, ObstacleTruth, ImuBatch, FeatureFrame, PositionFix, Odometry,
-                   FlightResult, MapFile, SpeedLimit, FenceSet>;
+                   Goal, HorizonRequest, Plan, PlanHeading, PlanTiming, PlanUnseen, PoseError, LandmarkDensities,
+                   SearchView, TrackBounds, Heartbeat, ConfigurationReport, ObstacleTruth, ImuBatch, FeatureFrame,
+                   PositionFix, Odometry, FlightResult, MapFile, SpeedLimit, FenceSet>;
 
 /// Returns the sizes of a value's arrays, in the order in which its .lcm file declares the counts.
 template <class T>

@@ -48,6 +48,12 @@ TEST(Rejection, OfPoseError) {
   EXPECT_EQ(after<PoseError>([](auto& e) { e.apart = -0.1; }), "Number");
 }
 
+TEST(Rejection, OfLandmarkDensities) {
+  EXPECT_EQ(after<LandmarkDensities>([](auto& d) { d.densities.obstacles = -1.0; }), "Number");
+  EXPECT_EQ(after<LandmarkDensities>([](auto& d) { d.densities.by_class[0] = kNaN; }), "Number");
+  EXPECT_EQ(after<LandmarkDensities>([](auto& d) { ++d.tracks; }), "Inconsistent") << "statics names another pair";
+}
+
 TEST(Rejection, OfMapFile) {
   EXPECT_EQ(after<MapFile>([](auto& f) { f.at.us = kFarFuture; }), "Time");
   EXPECT_EQ(after<MapFile>([](auto& f) { f.format = static_cast<MapFormat>(1); }), "Enumeration");

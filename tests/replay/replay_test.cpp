@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -137,6 +138,35 @@ TEST_F(ReplayTest, OfAVehicleWhoseTubeChangesGivesTheSameBytes) {
   for (const auto& [name, request] : all.inputs.requests) tubes.insert(request.tube.y());
   EXPECT_GT(tubes.size(), 1U);
   EXPECT_EQ(all.count(Agreement::Identical), static_cast<std::int64_t>(all.plans.size())) << replay_text(all, false);
+}
+
+/// Water full of lilies, whose label promises nothing to a camera.
+TEST_F(ReplayTest, OfDensitiesThatWereLearntInFlightGivesTheSameBytes) {
+  const std::string path = folder_->file("lilies.lcm"), kept = folder_->file("lilies_extract.lcm");
+  record_virtually({std::string(TERN_SCENARIO_FOLDER) + "/lake.yaml",
+                    {"simulator.estimation=vio", "planner.semantics.error_price=20",
+                     "planner.semantics.learn_densities=true", "simulator.vio.landmarks.regions.water=4",
+                     "uav.goal=[40, 0, 1]"},
+                    7.0,
+                    {}},
+                   path);
+  const Replay all = replay(path);
+  EXPECT_EQ(all.count(Agreement::Identical), static_cast<std::int64_t>(all.plans.size())) << replay_text(all, false);
+  const auto by_densities = std::ranges::count_if(all.inputs.plans, [&](const RecordedPlan& recorded) {
+    return all.inputs.densities.contains(recorded.plan.inputs.goal_field.statics);
+  });
+  EXPECT_GT(by_densities, 10);
+  EXPECT_LT(by_densities, std::ssize(all.inputs.plans)) << "first by the labels";
+  EXPECT_GT(all.inputs.log.channels.at(channels::kLandmarkDensities.name).messages, std::ssize(all.inputs.densities))
+      << "repeated for a logger that starts late";
+  ASSERT_TRUE(write_extract(path, {}, kept, ""));
+  const Replay extracted = replay(kept);
+  EXPECT_EQ(extracted.count(Agreement::Identical), static_cast<std::int64_t>(all.plans.size()));
+  copy_log_with<LandmarkDensities>(path, folder_->file("lilies_lost.lcm"), channels::kLandmarkDensities.name,
+                                   [](LandmarkDensities&) { return false; });
+  const Replay lost = replay(folder_->file("lilies_lost.lcm"));
+  EXPECT_EQ(lost.missing(), by_densities);
+  EXPECT_TRUE(text_has(lost, "or the LANDMARK_DENSITIES of that name"));
 }
 
 TEST_F(ReplayTest, AnAnswerThatIsNotThePlannersIsFoundWithItsStage) {

@@ -1,5 +1,6 @@
 #include "core/world/fence_set.h"
 #include "core/world/inertial.h"
+#include "core/world/landmark_densities.h"
 #include "core/world/map_file.h"
 #include "core/world/plan_heading.h"
 #include "core/world/plan_unseen.h"
@@ -92,6 +93,19 @@ PoseError random_message(Rng& rng, Fill) {
   for (double& x : error.pose_covariance) x = number(rng, -1e12, 1e12);
   error.apart = number(rng, 0.0, kMaxCoordinate);
   return error;
+}
+
+template <>
+LandmarkDensities random_message(Rng& rng, Fill fill) {
+  LandmarkDensities of;
+  of.header = header(rng);
+  of.tracks = static_cast<std::uint64_t>(integer(rng, 0, kMaxCounter));
+  of.map_version = static_cast<std::uint64_t>(integer(rng, 0, kMaxCounter));
+  of.densities.obstacles = number(rng, 0.0, kMaxLandmarkDensity);
+  of.densities.by_class.resize(static_cast<std::size_t>(count(rng, fill, 1, kMaxSurfaceClasses)));
+  for (double& density : of.densities.by_class) density = number(rng, 0.0, kMaxLandmarkDensity);
+  of.statics = name_of(of);
+  return of;
 }
 
 template <>

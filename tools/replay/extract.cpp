@@ -30,7 +30,7 @@ void keep(Map& map, const Keys& keys) {
 
 void keep_what_is_named(RecordedInputs& inputs) {
   std::set<MessageName> requests, goals;
-  std::set<std::uint64_t> maps, configurations;
+  std::set<std::uint64_t> maps, configurations, statics;
   std::set<std::int64_t> planners;
   for (const RecordedPlan& recorded : inputs.plans) {
     const PlanInputs& names = recorded.plan.inputs;
@@ -38,12 +38,14 @@ void keep_what_is_named(RecordedInputs& inputs) {
     goals.insert(names.goal);
     maps.insert({names.map_version, names.goal_field.map_version});
     configurations.insert(names.configuration_hash);
+    statics.insert(names.goal_field.statics);
     planners.insert(recorded.plan.header.name.sender_epoch_us);
   }
   keep(inputs.requests, requests);
   keep(inputs.goals, goals);
   keep(inputs.maps, maps);
   keep(inputs.configurations, configurations);
+  keep(inputs.densities, statics);
   keep(inputs.platforms, planners);
 }
 
@@ -94,6 +96,7 @@ class ExtractWriter {
       }
     }
     for (const auto& [name, goal] : extract_.inputs.goals) put(channels::kGoal, goal);
+    for (const auto& [statics, densities] : extract_.inputs.densities) put(channels::kLandmarkDensities, densities);
     write_requests();
     for (const TrackSet& set : extract_.predictions) {
       if (set.pose_error) put(channels::kPoseError, *set.pose_error);

@@ -81,6 +81,9 @@ Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::
          [&](const HorizonRequest& request, std::int64_t) { inputs.requests.emplace(request.header.name, request); });
   log.on(channels::kGoal, [&](const Goal& goal, std::int64_t) { inputs.goals.emplace(goal.header.name, goal); });
   log.on(channels::kSemanticMap, [&](const MapChunk& chunk, std::int64_t) { maps.add(chunk); });
+  log.on(channels::kLandmarkDensities, [&](const LandmarkDensities& densities, std::int64_t) {
+    inputs.densities.emplace(densities.statics, densities);
+  });
   log.on(channels::kConfiguration, [&](const ConfigurationReport& report, std::int64_t) {
     inputs.configurations.emplace(report.hash, report);
     inputs.platforms.emplace(report.header.name.sender_epoch_us, report.platform);

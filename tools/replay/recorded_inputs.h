@@ -12,6 +12,7 @@
 #include "core/wire/health.h"
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
+#include "core/world/landmark_densities.h"
 #include "core/world/plan_heading.h"
 #include "core/world/sighting.h"
 #include "core/world/track.h"
@@ -34,6 +35,7 @@ struct RecordedInputs {
   std::map<MessageName, HorizonRequest> requests;
   std::map<MessageName, Goal> goals;
   std::map<std::uint64_t, VoxelMap> maps;                       ///< complete ones, by version
+  std::map<std::uint64_t, LandmarkDensities> densities;         ///< by the `statics` that names them
   std::map<std::uint64_t, ConfigurationReport> configurations;  ///< one of each hash
   std::map<std::int64_t, std::string> platforms;                ///< by the sender epoch of any process
   // Only if a planner had `planner.unseen: passive`:

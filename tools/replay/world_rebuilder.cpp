@@ -79,7 +79,7 @@ WorldRebuilder::WorldRebuilder(const RecordedInputs& inputs, OtherSettings other
   for (const RecordedPlan& recorded : inputs.plans) {
     const GoalFieldInputs& names = recorded.plan.inputs.goal_field;
     if (names.map_version == 0) continue;
-    statics_.emplace(names.statics, std::nullopt);
+    statics_.emplace(tracks_of(names), std::nullopt);
     if (names.statics_epoch_us != 0) memories_[{names.statics_epoch_us, names.statics_first_set}];
   }
   statics_[StaticTracks().digest()].emplace();
@@ -145,6 +145,16 @@ std::shared_ptr<const GoalField> WorldRebuilder::field_of(const GoalFieldKey& ke
   return field;
 }
 
+const LandmarkDensities* WorldRebuilder::densities_of(const GoalFieldInputs& names) const {
+  const auto known = inputs_.densities.find(names.statics);
+  return known == inputs_.densities.end() ? nullptr : &known->second;
+}
+
+std::uint64_t WorldRebuilder::tracks_of(const GoalFieldInputs& names) const {
+  const LandmarkDensities* densities = densities_of(names);
+  return densities == nullptr ? names.statics : densities->tracks;
+}
+
 Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanInputs& names,
                                                                     Configuration& configuration) {
   const GoalFieldInputs& from = names.goal_field;
@@ -156,18 +166,23 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
   }
   const auto map = map_of(from.map_version, configuration);
   if (!map) return tl::make_unexpected(map.error());
-  const auto statics = statics_.find(from.statics);
+  const LandmarkDensities* densities = densities_of(from);
+  const auto statics = statics_.find(tracks_of(from));
   if (statics == statics_.end() || !statics->second) {
-    return fail(fmt::format("static tracks {:016x} of predictor {} from set {} on", from.statics, from.statics_epoch_us,
-                            from.statics_first_set));
+    const bool may_learn = configuration.config.error_price.learn_densities && densities == nullptr;
+    return fail(fmt::format("static tracks {:016x} of predictor {} from set {} on{}", from.statics,
+                            from.statics_epoch_us, from.statics_first_set,
+                            may_learn ? ", or the LANDMARK_DENSITIES of that name" : ""));
   }
   GoalFieldKey key{goal->second.position,
                    from.map_version,
-                   from.statics,
+                   statics->first,
                    body_box(configuration.uav.body),
                    configuration.uav.flight_box,
                    way_speed(**map, configuration.uav.limits),
-                   statics->second->map_margin};
+                   statics->second->map_margin,
+                   {}};
+  if (densities != nullptr && configuration.config.error_price.learn_densities) key.densities = densities->densities;
   Vec3 start = configuration.uav.start;
   if (from.vehicle != MessageName{}) {
     const auto request = inputs_.requests.find(from.vehicle);

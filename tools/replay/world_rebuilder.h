@@ -70,6 +70,9 @@ class WorldRebuilder {
   };
   Result<Configuration*> configuration_of(std::uint64_t hash);
   Result<std::shared_ptr<const MapProducts>> map_of(std::uint64_t version, Configuration& configuration);
+  /// The LANDMARK_DENSITIES that a goal field names; null: it has those of the labels.
+  [[nodiscard]] const LandmarkDensities* densities_of(const GoalFieldInputs& names) const;
+  [[nodiscard]] std::uint64_t tracks_of(const GoalFieldInputs& names) const;
   Result<std::shared_ptr<const GoalProducts>> goal_of(const PlanInputs& names, Configuration& configuration);
   std::shared_ptr<const UnseenKnowledge> unseen_of(const Plan& plan, const Configuration& configuration);
   std::shared_ptr<const GoalField> field_of(const GoalFieldKey& key, const Vec3& start,

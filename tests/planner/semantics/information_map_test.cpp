@@ -51,6 +51,20 @@ TEST(SurfaceMap, TakesObstaclesAtRestFromWhereverTheyAre) {
   EXPECT_FALSE(map.at(-20, 20.5).is_opaque);
 }
 
+TEST(SurfaceMap, TakesOtherDensitiesButNoOtherSides) {
+  const std::vector<Box> rock{Box(Vec3(10, -1, 0), Vec3(11, 1, 2))};
+  const SurfaceMap water(map_with(kSmall, VoxelLabel::Repulsive, "water"), {});
+  EXPECT_EQ(water.promised(), (SurfaceDensities{4.0, {1.0, 0.03}}));
+  const SurfaceMap lilies = water.with_densities({2.0, {0.5, 3.0}}).with_obstacles(rock);
+  EXPECT_FLOAT_EQ(lilies.at(30, 0).ground, 3.0f);
+  EXPECT_FLOAT_EQ(lilies.at(30, 0).sides, 0.0f) << "its label promises none";
+  EXPECT_FLOAT_EQ(lilies.at(30, 5).ground, 0.5f);
+  EXPECT_FLOAT_EQ(lilies.at(-500, 5).ground, 0.5f);
+  EXPECT_FLOAT_EQ(lilies.at(10.5, 0).sides, 2.0f);
+  const SurfaceMap texture(map_with(kSmall, VoxelLabel::Attractive, "texture"), {});
+  EXPECT_FLOAT_EQ(texture.with_densities({4.0, {1.0, 0.2}}).at(30, 0).sides, 0.2f);
+}
+
 TEST(LookAlong, SeesAsMuchGroundAsItsPartOfTheAnnulusHas) {
   const TextureCamera camera;
   const ViewInformation view = look_along({VoxelMap{}, {}}, Vec3(0, 0, 1), Eigen::Vector2d(0, 1), 0.25, camera);
