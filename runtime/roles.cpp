@@ -72,6 +72,7 @@ const std::vector<ProcessRole>& process_roles() {
                 kOdometry, kPlan, kPlanHeading, kPlanTiming, kPlanUnseen, kLandmarkDensities, kSearchView)},
       {"tern-detector", Role::Vehicle, names_of(kDepthImage, kPointCloud, kSemanticMap, kObstacleSightings)},
       {"tern-estimator", Role::Vehicle, names_of(kImu, kFeatureTracks, kPositionFix, kPredictions, kOdometry)},
+      {"tern-features", Role::Vehicle, names_of(kImu, kFeatureTracks)},
       {"tern-mapper", Role::Mapper, names_of(kSemanticMap, kUavState, kPointCloud, kDepthImage, kMapFile, kFences)},
       {"tern-logger", Role::Observer, {}},
       {"tern-monitor", Role::Observer,

@@ -9,9 +9,9 @@
 namespace tern {
 
 /// Sections of a scenario file that belong to processes.
-inline constexpr const char* kProcessSections[] = {"simulator", "executor",      "predictor", "mapper",
-                                                   "planner",   "logger",        "detector",  "estimator",
-                                                   "mavlink",   "autopilot_sim", "mission",   "dimos"};
+inline constexpr const char* kProcessSections[] = {"simulator", "executor", "predictor", "mapper",  "planner",
+                                                   "logger",    "detector", "estimator", "mavlink", "autopilot_sim",
+                                                   "mission",   "dimos",    "features"};
 
 /// Generators of worlds (WorldSpec::generator).
 inline constexpr const char* kGenerators[] = {"none",         "paper_corridor", "paper_attract",

@@ -27,6 +27,7 @@ sections=(
   tern-mapper mapper
   tern-detector detector
   tern-estimator estimator
+  tern-features features
   tern-mavlink mavlink
   tern-autopilot-sim autopilot_sim
   tern-logger logger
@@ -49,6 +50,7 @@ names file, line, key, value and range. The keys of the world, the vehicle and t
 TEXT
   local k table
   for ((k = 0; k < ${#sections[@]}; k += 2)); do
+    [[ ${sections[k]} != tern-features || -x $bin/tern-features ]] || continue
     table=$("$bin/${sections[k]}" --help-config |
       awk -v head="| key of \`${sections[k + 1]}:\` " 'index($0, head) == 1 { on = 1 } on && !/^\|/ { exit } on')
     [[ -n $table ]] || { echo "${sections[k]} --help-config has no table of ${sections[k + 1]}" >&2 && exit 1; }
@@ -84,7 +86,9 @@ TEXT
 # of_built: the page on standard input without the sections of programs that were not built, since their library is missing.
 of_built() {
   local name missing=
-  for name in tern-ros2 tern-unlaz; do [[ -x $bin/$name ]] || missing+=" $name "; done
+  for name in tern-ros2 tern-unlaz tern-features; do
+    [[ -x $bin/$name ]] || missing+=" $name ${name#tern-} "
+  done
   awk -v missing="$missing" '/^## / { skip = index(missing, " " $2 " ") > 0 } !skip'
 }
 

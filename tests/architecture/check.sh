@@ -57,43 +57,44 @@ one_folder Beast '^boost/beast'
 one_folder GeographicLib '^GeographicLib/'
 only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 only_in '^laszip/' '^(semantic_mapper/app/unlaz_main[.]cpp|tests/semantic_mapper/unlaz_test[.]cpp)$' 'LASzip trusts its input'
+only_in '^opencv2/' '^(features|tests/features)/' 'OpenCV is for one folder'
 only_in '^dds/' '^ros2/dds/' 'Cyclone DDS is for one adapter'
 
 # base <- geometry <- splines <- world <- scenario <- process libraries <- apps; wire stands on base alone.
-ours='^(core|geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/'
+ours='^(core|geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/'
 never '^core/base/' "^core/(geometry|splines|wire|world|scenario|drawing)/" 'base stands on nothing'
 never '^core/geometry/' '^core/(splines|wire|world|scenario|drawing)/' 'geometry stands on base'
 never '^core/splines/' '^core/(wire|world|scenario|drawing)/' 'splines stand on base and geometry'
 never '^core/wire/' '^core/(geometry|splines|world|scenario|drawing)/' 'the wire stands on base'
 never '^core/world/' '^core/(scenario|drawing)/' 'what is drawn, and scenarios, stand on world'
 never '^core/scenario/' '^core/drawing/' 'scenarios stand on world'
-never '^core/' '^(geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^core/' '^(geodesy|perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^perception/' '^(messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^perception/' '^(messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'perception stands on core'
-never '^geodesy/' '^(perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^geodesy/' '^(perception|messages|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'places on the earth stand on core'
-never '^messages/' '^(perception|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^messages/' '^(perception|ros_messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'messages stand on core'
-never '^ros_messages/' '^(perception|messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^ros_messages/' '^(perception|messages|ros_bridge|flight_log|runtime|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'ROS messages stand on core'
-never '^ros_bridge/' '^(perception|flight_log|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^ros_bridge/' '^(perception|flight_log|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'bridges to ROS stand on core and ROS messages, their app/ on the bus'
-never '^flight_log/' '^(perception|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^flight_log/' '^(perception|runtime|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'the log stands on core and messages'
-never '^runtime/' '^(perception|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^runtime/' '^(perception|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'runtime stands on core and messages'
 
-never '^(planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
-never '^(core|messages|flight_log|runtime|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools)/' \
+never '^(planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
+never '^(core|messages|flight_log|runtime|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|monitor|launcher|campaign|viewer|tools)/' \
   '^python/' 'the Python package stands on all others'
 
 # Who starts the others knows how to sum up for a monitor that cannot, no messages and no other process.
-never '^launcher/' '^(perception|messages|flight_log|planner|predictor|detector|estimator|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|campaign|viewer|tools|tests)/' \
+never '^launcher/' '^(perception|messages|flight_log|planner|predictor|detector|estimator|features|executor|simulator|mavlink|ros2|dimos|semantic_mapper|mission|logger|campaign|viewer|tools|tests)/' \
   'the launcher stands on core, runtime and the summary'
 
 # A process library knows its own folder, core, what channels are called, and for a recorder the messages.
-for process in planner predictor detector estimator executor simulator mavlink ros_bridge ros2 dimos semantic_mapper mission logger monitor viewer/bridge; do
+for process in planner predictor detector estimator features executor simulator mavlink ros_bridge ros2 dimos semantic_mapper mission logger monitor viewer/bridge; do
   while IFS=$'\t' read -r file header; do
     case $file in "$process"/app/* | mavlink/sim/app/*) continue ;; esac
     case $header in
@@ -132,7 +133,7 @@ never '^planner/(safety|semantics|global_path)/' '^planner/(search|optimization)
 circle=$(awk -F'\t' -v o="$ours" '$2 ~ o' <<<"$includes" | tsort 2>&1 >/dev/null) || breach "includes in a circle: $circle"
 
 # An auditor shares data types with what it audits, no algorithms.
-never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|detector|estimator|executor|simulator)' 'audit shares no algorithm'
+never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|detector|estimator|features|executor|simulator)' 'audit shares no algorithm'
 
 # One definition of a type name per namespace: two would break the one definition rule where both are linked. Counted are
 # definitions at the top of product files, outside unnamed namespaces; a forward declaration is no definition.

@@ -24,6 +24,7 @@ planted() {
 
 planted planner/lcm.cpp '#include <lcm/lcm-cpp.hpp>\n'
 planted planner/globs/CMakeLists.txt 'file(GLOB found CONFIGURE_DEPENDS *.cpp)\n'
+planted planner/images.cpp '#include <opencv2/core.hpp>\n'
 planted planner/generated.cpp '#include "tern_msgs/plan_t.hpp"\n'
 planted core/base/x.h '#include "core/world/track.h"\n'
 planted core/geometry/x.h '#include "core/splines/minvo.h"\n'

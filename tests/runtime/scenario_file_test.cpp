@@ -137,11 +137,11 @@ TEST(ScenarioFile, LeavesProcessSectionsToTheirProcesses) {
 }
 
 TEST(ScenarioFile, ListsEveryTopLevelKeyThatItKnows) {
-  EXPECT_EQ(
-      error_of("plannr: {}\n"),
-      "a.yaml:1: plannr: unknown key (known here: autopilot_sim, detector, dimos, estimator, executor, logger, mapper, "
-      "mavlink, mission, name, planner, predictor, seed, "
-      "semantics, simulator, timeout_s, uav, world)");
+  EXPECT_EQ(error_of("plannr: {}\n"),
+            "a.yaml:1: plannr: unknown key (known here: autopilot_sim, detector, dimos, estimator, executor, features, "
+            "logger, mapper, "
+            "mavlink, mission, name, planner, predictor, seed, "
+            "semantics, simulator, timeout_s, uav, world)");
 }
 
 TEST(ScenarioFile, CallsAMisspeltKeyUnknownBeforeItBlamesTheDefaultThatStandsInItsPlace) {
