@@ -143,13 +143,13 @@ TEST_F(ReplayTest, OfAVehicleWhoseTubeChangesGivesTheSameBytes) {
 /// Water full of lilies, whose label promises nothing to a camera.
 TEST_F(ReplayTest, OfDensitiesThatWereLearntInFlightGivesTheSameBytes) {
   const std::string path = folder_->file("lilies.lcm"), kept = folder_->file("lilies_extract.lcm");
-  record_virtually({std::string(TERN_SCENARIO_FOLDER) + "/lake.yaml",
-                    {"simulator.estimation=vio", "planner.semantics.error_price=20",
-                     "planner.semantics.learn_densities=true", "simulator.vio.landmarks.regions.water=4",
-                     "uav.goal=[40, 0, 1]"},
-                    7.0,
-                    {}},
-                   path);
+  record_virtually(
+      {std::string(TERN_SCENARIO_FOLDER) + "/lake.yaml",
+       {"simulator.estimation=vio", "planner.semantics.error_price=20", "planner.semantics.learn_densities=true",
+        "simulator.vio.landmarks.regions.water=4", "uav.goal=[40, 0, 1]"},
+       7.0,
+       {}},
+      path);
   const Replay all = replay(path);
   EXPECT_EQ(all.count(Agreement::Identical), static_cast<std::int64_t>(all.plans.size())) << replay_text(all, false);
   const auto by_densities = std::ranges::count_if(all.inputs.plans, [&](const RecordedPlan& recorded) {
