@@ -6,11 +6,16 @@ namespace tern {
 
 std::optional<Vec3> EstimateResets::add(const UavState& state, UTime at) {
   const std::optional<UavState> before = std::exchange(before_, state);
-  if (!before || state.at <= before->at || state.at - before->at > kMaxStateGap) return std::nullopt;
-  const double dt = (state.at - before->at).seconds();
-  const Vec3 by = state.motion.p - before->motion.p - 0.5 * dt * (before->motion.v + state.motion.v);
-  if (by.cwiseAbs().maxCoeff() < kMinJump) return std::nullopt;
-  unmatched_jump_ = {at, by};
+  const std::optional<Jump> jump = std::exchange(newest_jump_, std::nullopt);
+  const bool is_next = before && state.at > before->at && state.at - before->at <= kMaxStateGap;
+  Vec3 by = Vec3::Zero();
+  if (is_next) {
+    const double dt = (state.at - before->at).seconds();
+    by = state.motion.p - before->motion.p - 0.5 * dt * (before->motion.v + state.motion.v);
+  }
+  if (jump && (jump->by + by).cwiseAbs().maxCoeff() < kMinJump) return std::nullopt;  // it was an outlier
+  if (jump) unmatched_jump_ = jump;
+  if (by.cwiseAbs().maxCoeff() >= kMinJump) newest_jump_ = {at, by};
   return match();
 }
 

@@ -44,6 +44,19 @@ TEST(EstimateResets, AreNoneWithoutAJumpOrWithoutAWord) {
   EXPECT_TRUE(found(Duration{1'000'000}, Duration{1'000'000}, Vec3(0.04, 0, 0)).empty()) << "of the heading alone";
 }
 
+TEST(EstimateResets, AnOutlierThatTheNextStateTakesBackIsNone) {
+  for (const std::int64_t told_us : {950'000, 1'000'000, 1'020'000}) {
+    EstimateResets resets;
+    resets.add(3, kNow);
+    for (Duration since; since < Duration{2'000'000}; since = since + Duration{10'000}) {
+      UavState state = state_at(since, Duration{5'000'000}, Vec3::Zero());
+      if (since == Duration{1'000'000}) state.motion.p.z() += 1.0;
+      EXPECT_FALSE(resets.add(state, kNow + since));
+      EXPECT_FALSE(resets.add(since >= Duration{told_us} ? 4 : 3, kNow + since)) << told_us;
+    }
+  }
+}
+
 TEST(EstimateResets, AHoleInTheStatesIsNoJump) {
   EstimateResets resets;
   resets.add(0, kNow);

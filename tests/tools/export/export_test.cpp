@@ -171,7 +171,7 @@ RC_GTEST_PROP(HullFaces, AreAClosedSurfaceWithEveryPointInside, ()) {
 TEST(MessageTypes, HaveNoUnitThatIsNotKnown) {
   const std::set<std::string> known = {"",    "m",     "m/s",   "m/s^2",   "m/s^3",   "m^2",
                                        "rad", "deg",   "deg/s", "m^2/s^5", "m^2/s^6", "s",
-                                       "1/m", "rad^2", "rad/s", "rad/s^2", "m^2/s^2"};
+                                       "1/m", "1/m^2", "rad^2", "rad/s",   "rad/s^2", "m^2/s^2"};
   for (const auto& [name, type] : ros::message_types()) {
     for (const ros::MessageField& field : type.fields)
       EXPECT_TRUE(known.contains(field.unit)) << name << "." << field.name;
