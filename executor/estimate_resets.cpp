@@ -4,18 +4,29 @@
 
 namespace tern {
 
+namespace {
+
+/// Returns how far a state is from where an earlier one leads, W, m; nullopt if too much time lies between them.
+std::optional<Vec3> apart(const UavState& from, const UavState& to) {
+  if (to.at <= from.at || to.at - from.at > EstimateResets::kMaxStateGap) return std::nullopt;
+  const double dt = (to.at - from.at).seconds();
+  return to.motion.p - from.motion.p - 0.5 * dt * (from.motion.v + to.motion.v);
+}
+
+bool is_jump(const Vec3& by) { return by.cwiseAbs().maxCoeff() >= EstimateResets::kMinJump; }
+
+}  // namespace
+
 std::optional<Vec3> EstimateResets::add(const UavState& state, UTime at) {
   const std::optional<UavState> before = std::exchange(before_, state);
   const std::optional<Jump> jump = std::exchange(newest_jump_, std::nullopt);
-  const bool is_next = before && state.at > before->at && state.at - before->at <= kMaxStateGap;
-  Vec3 by = Vec3::Zero();
-  if (is_next) {
-    const double dt = (state.at - before->at).seconds();
-    by = state.motion.p - before->motion.p - 0.5 * dt * (before->motion.v + state.motion.v);
+  if (jump) {
+    const std::optional<Vec3> since = apart(jump->from, state);
+    if (since && !is_jump(*since)) return std::nullopt;  // the state in between was an outlier
+    unmatched_jump_ = jump;
   }
-  if (jump && (jump->by + by).cwiseAbs().maxCoeff() < kMinJump) return std::nullopt;  // it was an outlier
-  if (jump) unmatched_jump_ = jump;
-  if (by.cwiseAbs().maxCoeff() >= kMinJump) newest_jump_ = {at, by};
+  const std::optional<Vec3> by = before ? apart(*before, state) : std::nullopt;
+  if (by && is_jump(*by)) newest_jump_ = {at, *by, *before};
   return match();
 }
 

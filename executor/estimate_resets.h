@@ -33,6 +33,7 @@ class EstimateResets {
   struct Jump {
     UTime at;
     Vec3 by;
+    UavState from;  ///< the state before it
   };
   std::optional<Vec3> match();
   std::optional<UavState> before_;

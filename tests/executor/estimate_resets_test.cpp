@@ -46,11 +46,15 @@ TEST(EstimateResets, AreNoneWithoutAJumpOrWithoutAWord) {
 
 TEST(EstimateResets, AnOutlierThatTheNextStateTakesBackIsNone) {
   for (const std::int64_t told_us : {950'000, 1'000'000, 1'020'000}) {
+    const Duration ahead{told_us == 1'000'000 ? 40'000 : 0};  // a wrong stamp as well
     EstimateResets resets;
     resets.add(3, kNow);
     for (Duration since; since < Duration{2'000'000}; since = since + Duration{10'000}) {
       UavState state = state_at(since, Duration{5'000'000}, Vec3::Zero());
-      if (since == Duration{1'000'000}) state.motion.p.z() += 1.0;
+      if (since == Duration{1'000'000}) {
+        state.motion.p.z() += 1.0;
+        state.at = state.at + ahead;
+      }
       EXPECT_FALSE(resets.add(state, kNow + since));
       EXPECT_FALSE(resets.add(since >= Duration{told_us} ? 4 : 3, kNow + since)) << told_us;
     }
