@@ -20,13 +20,15 @@ bool is_jump(const Vec3& by) { return by.cwiseAbs().maxCoeff() >= EstimateResets
 std::optional<Vec3> EstimateResets::add(const UavState& state, UTime at) {
   const std::optional<UavState> before = std::exchange(before_, state);
   const std::optional<Jump> jump = std::exchange(newest_jump_, std::nullopt);
+  const bool was_steady = std::exchange(is_steady_, true);
   if (jump) {
     const std::optional<Vec3> since = apart(jump->from, state);
     if (since && !is_jump(*since)) return std::nullopt;  // the state in between was an outlier
     unmatched_jump_ = jump;
   }
   const std::optional<Vec3> by = before ? apart(*before, state) : std::nullopt;
-  if (by && is_jump(*by)) newest_jump_ = {at, *by, *before};
+  is_steady_ = by && !is_jump(*by);
+  if (by && was_steady && !is_steady_) newest_jump_ = {at, *by, *before};
   return match();
 }
 

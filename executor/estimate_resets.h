@@ -14,8 +14,8 @@ namespace tern {
 ///
 /// A jump is the difference between a state's position and the previous state carried on by the mean of both
 /// velocities. A reset and a jump belong together if they are received within kMatchWindow, in either order. Two cases
-/// are ignored: a jump under kMinJump on every axis, and a jump without a reset. So is one that the next state takes
-/// back: that state was an outlier. A jump thus counts once the next state has come.
+/// are ignored: a jump under kMinJump on every axis, and a jump without a reset. Nor does an outlier count. So the
+/// state before a jump must agree with the one before it, and the state after it must not take it back.
 class EstimateResets {
  public:
   static constexpr double kMinJump = 0.05;          ///< m; larger than the noise between two states
@@ -37,6 +37,7 @@ class EstimateResets {
   };
   std::optional<Vec3> match();
   std::optional<UavState> before_;
+  bool is_steady_ = false;  ///< before_ agrees with the state before it
   std::optional<std::int64_t> resets_;
   std::optional<Jump> newest_jump_;       ///< the jump to the newest state, which the next one may take back
   std::optional<Jump> unmatched_jump_;    ///< the newest jump without a reset

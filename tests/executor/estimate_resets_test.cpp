@@ -46,7 +46,7 @@ TEST(EstimateResets, AreNoneWithoutAJumpOrWithoutAWord) {
 
 TEST(EstimateResets, AnOutlierThatTheNextStateTakesBackIsNone) {
   for (const std::int64_t told_us : {950'000, 1'000'000, 1'020'000}) {
-    const Duration ahead{told_us == 1'000'000 ? 40'000 : 0};  // a wrong stamp as well
+    const Duration ahead{told_us == 950'000 ? -40'000 : told_us == 1'000'000 ? 40'000 : 0};  // a wrong stamp as well
     EstimateResets resets;
     resets.add(3, kNow);
     for (Duration since; since < Duration{2'000'000}; since = since + Duration{10'000}) {
