@@ -8,6 +8,7 @@
 #include "campaign/virtual_system.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
+#include "planner/semantics/seen_cells.h"
 
 namespace tern {
 namespace {
@@ -65,6 +66,54 @@ void prediction_products(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(PredictionProducts(set).obstacles.data());
 }
 BENCHMARK(prediction_products)->Unit(benchmark::kMicrosecond);
+
+/// The pose of a vehicle at (0, 0, 1) that has estimated it for a minute.
+PoseError pose_error() {
+  PoseError error;
+  error.position = Vec3(0, 0, 1);
+  for (std::size_t k = 0; k < 6; ++k) error.pose_covariance[7 * k] = k < 3 ? 0.01 : 1e-5;
+  error.pose_covariance[5] = error.pose_covariance[30] = 1e-4;
+  return error;
+}
+
+/// The margin of one box of the map, as a plan takes it for each box in reach.
+void map_margin(benchmark::State& state) {
+  const PoseError error = pose_error();
+  const Box box(Vec3(2, -1, 0), Vec3(2.5, 3, 2));
+  for (auto _ : state) benchmark::DoNotOptimize(error.margin(box));
+}
+BENCHMARK(map_margin)->Unit(benchmark::kNanosecond);
+
+/// The cells of a frame over a map of ground and one region, with the boxes at rest that are near.
+void seen_cells_of_a_frame(benchmark::State& state) {
+  VoxelMap map;
+  map.grid.origin = Vec3(-10, -20, 0);
+  map.grid.resolution = 0.5;
+  map.grid.size = {80, 80, 4};
+  map.labels.assign(static_cast<std::size_t>(map.grid.voxels()), VoxelLabel::Repulsive);
+  map.classes.assign(map.labels.size(), 1);
+  map.class_names = {"", "water"};
+  const SurfaceMap labels(map, {});
+  std::vector<Box> at_rest;
+  for (std::int64_t k = 0; k < state.range(0); ++k)
+    at_rest.push_back(box_around(
+        Vec3(3.0 + 0.4 * static_cast<double>(k % 12), -4.0 + 0.3 * static_cast<double>(k), 1.0), Vec3(0.1, 0.1, 1.0)));
+  FeatureFrame frame;
+  for (int k = 0; k < 100; ++k) {
+    StereoFeature& feature = frame.features.emplace_back();
+    feature.id = k;
+    feature.left = {-0.8 + 0.016 * k, 0.05 + 0.004 * k};
+    feature.right = feature.left - Eigen::Vector2d(frame.baseline_m / 4.0, 0.0);
+    feature.has_right = true;
+  }
+  CameraPose camera;
+  camera.eye = Vec3(0, 0, 1.2);
+  camera.R_WC << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  camera.error = pose_error();
+  const std::vector<Box> movers;
+  for (auto _ : state) benchmark::DoNotOptimize(seen_cells(frame, camera, {labels, at_rest, movers}).data());
+}
+BENCHMARK(seen_cells_of_a_frame)->Arg(0)->Arg(30)->Unit(benchmark::kMicrosecond);
 
 /// All chunks of the map: decoding, checking, assembling.
 void map_decode(benchmark::State& state) {

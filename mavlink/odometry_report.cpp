@@ -53,7 +53,8 @@ struct StatedVelocity {
   Vec3 variance;  ///< per axis of W
 };
 
-/// What a message states of the velocity in W, (m/s)²; nullopt: nothing. @param R  turns the velocity's frame to W
+/// Returns the covariance of the velocity that a message states, W, (m/s)²; nullopt if it states none.
+/// @param R  turns the velocity's frame to W
 std::optional<StatedVelocity> stated_velocity(const Odometry& m, const Matrix& R, bool correlated) {
   const Matrix C = symmetric(m.velocity_covariance).topLeftCorner<3, 3>();
   const Vec3 diagonal = C.diagonal();

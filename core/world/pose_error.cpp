@@ -17,12 +17,14 @@ double PoseError::margin(const Vec3& x) const {
       0.0, 1.0, 0.0, -r.z(), 0.0, r.x(),   //
       0.0, 0.0, 1.0, r.y(), -r.x(), 0.0;
   const Eigen::Matrix3d at_x = J * pose * J.transpose();
-  const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(at_x, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(at_x, Eigen::EigenvaluesOnly);  // in closed form: a plan asks for eight corners of each box
+  const double largest = solver.eigenvalues()[2];
   return std::ceil((kQuantile * std::sqrt(std::max(largest, 0.0)) + apart) / kStep) * kStep;
 }
 
 double PoseError::margin(const Box& box) const {
-  const Points corners = box_corners(box);
+  const Eigen::Matrix<double, 3, 8> corners = box_corners(box);
   double largest = 0.0;
   for (Eigen::Index k = 0; k < corners.cols(); ++k) largest = std::max(largest, margin(corners.col(k)));
   return largest;

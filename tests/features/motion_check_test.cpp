@@ -16,7 +16,7 @@ struct Scene {
   double noise = 0.2 * kSigma;
 };
 
-/// Points in front of the camera before and after its motion; the last `moving` of them move by `by` besides.
+/// Points in front of the camera before and after its motion. The last `moving` of them also move by `by` themselves.
 std::vector<MovedPoint> points_of(const Scene& scene, int count, int moving, const Vec3& by, Rng& random) {
   std::vector<MovedPoint> points;
   for (int k = 0; k < count; ++k) {

@@ -82,7 +82,7 @@ TrackSet tracks_at(const World& world, UTime at, bool knows_movers) {
   return set;
 }
 
-/// What was seen after a flight, and the lines that were told.
+/// The densities at the end of a flight, and the lines that were logged.
 struct Seen {
   DensityWatch watch;
   std::vector<std::string> lines;
